@@ -1,0 +1,96 @@
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <luciole/image.hpp>
+#include <luciole/scene.hpp>
+#include <luciole/settings.hpp>
+
+namespace luciole {
+
+/// What is seen: a camera and the picture's size in pixels, [1, 16384] each and at most the device's limit.
+struct View {
+    Camera camera;
+    uvec2 extent{1024, 768};
+};
+
+struct DeviceInfo {
+    std::string name;    ///< as the driver says
+    std::string driver;  ///< name and version of the driver
+    std::string apiVersion;
+    bool software = false;
+    bool usable = false;     ///< has what Luciole needs
+    std::string whyUnusable;
+};
+
+/// All Vulkan devices of this machine, in the loader's order. Empty without a Vulkan loader or driver.
+std::vector<DeviceInfo> listDevices();
+
+struct RendererOptions {
+    std::string device;       ///< index or part of a name; empty: the first discrete GPU, else any GPU, else software
+    bool validation = false;  ///< core and synchronization validation; messages go to `onMessage`
+    std::function<void(std::string_view)> onMessage;  ///< validation messages; may be empty
+};
+
+struct PassStats {
+    std::string name;
+    double ms = 0;         ///< GPU time; exact per pass only with RenderSettings::measure (see docs/performance.md)
+    uint64_t bytes = 0;    ///< size of everything the pass declares to read and write
+};
+
+struct FrameStats {
+    std::vector<PassStats> passes;
+    double wallMs = 0;          ///< recording, submission and execution, without upload and read-back
+    uint64_t peakBytes = 0;     ///< device memory allocated for scene and frame together
+    uint64_t triangles = 0;
+    uint32_t lights = 0;
+    std::string deviceName, driver;
+    std::vector<std::string> warnings;
+};
+
+/// One rendered picture. All images have the view's size.
+struct Frame {
+    Image radiance;  ///< linear Rec. 709, 3 channels
+    Image display;   ///< exposed, tone-mapped, sRGB-encoded, [0, 1], 3 channels
+    std::map<std::string, Image> aovs;  ///< what was asked for, by name (see aovNames)
+    FrameStats stats;
+    std::string graph;  ///< the frame graph in Graphviz's language
+};
+
+/// Names of the additional layers: depth (metres along the view axis, 0 where nothing is), normal (world space),
+/// cs0, cs1, material and id (indices; -1 where nothing is), light-count (lights in range and cone).
+const std::vector<std::string>& aovNames();
+
+struct LightingTechniqueInfo {
+    std::string_view name;
+    std::string_view help;
+    std::string_view source;  ///< author, year, section
+};
+const std::vector<LightingTechniqueInfo>& lightingTechniques();  ///< "reference" included
+
+/// A Vulkan device and what is kept on it between frames. Not thread-safe; use one per thread.
+class Renderer {
+public:
+    /// \throws Error(device) if no device is usable, with the reason for each
+    explicit Renderer(const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    const DeviceInfo& device() const;
+
+    /// Renders one picture and waits for it. The scene stays on the device until another one is passed.
+    /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)
+    Frame render(const Scene& scene, const View& view, const RenderSettings& settings,
+                 const std::vector<std::string>& aovs = {});
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace luciole

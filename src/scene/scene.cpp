@@ -1,0 +1,1 @@
+#include <luciole/scene.hpp>
