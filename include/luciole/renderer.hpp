@@ -2,6 +2,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,9 @@ struct RendererOptions {
 
 struct PassStats {
     std::string name;
-    double ms = 0;         ///< GPU time; exact per pass only with RenderSettings::measure (see docs/performance.md)
-    uint64_t bytes = 0;    ///< size of everything the pass declares to read and write
+    std::optional<double> ms;  ///< GPU time, only with RenderSettings::measure: without a full barrier after each
+                               ///< timestamp, per-pass times were seen to be wrong by any factor
+    uint64_t bytes = 0;        ///< size of everything the pass declares to read and write
 };
 
 struct FrameStats {
@@ -83,10 +85,13 @@ public:
 
     const DeviceInfo& device() const;
 
-    /// Renders one picture and waits for it. The scene stays on the device until another one is passed.
+    /// Brings a valid scene (see `validate`) onto the device, in place of the one before. `scene` may die afterwards.
+    /// \throws Error(limit) for what the device can't hold, Error(deviceLost) if its memory is full
+    void setScene(const Scene& scene);
+
+    /// Renders one picture of the scene set last (an empty one at first) and waits for it.
     /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)
-    Frame render(const Scene& scene, const View& view, const RenderSettings& settings,
-                 const std::vector<std::string>& aovs = {});
+    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs = {});
 
 private:
     struct Impl;

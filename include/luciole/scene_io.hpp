@@ -49,6 +49,7 @@ struct BuiltinParameter {
     std::string_view name;
     std::string_view help;
     double fallback, low, high;
+    bool whole = true;  ///< takes whole numbers only
 };
 struct BuiltinScene {
     std::string_view name;

@@ -26,7 +26,7 @@ struct RenderSettings {
 struct Setting {
     std::string_view name;      ///< kebab-case; `--name` on the command line, the key in a settings file
     std::string_view help;      ///< one line
-    std::string_view type;      ///< "choice", "number" or "switch"
+    std::string_view type;      ///< "choice", "number", "switch" (on, off), or "name": checked by the renderer
     std::vector<std::string> choices;  ///< "choice" only
     double low, high;           ///< "number" only
     std::string (*get)(const RenderSettings&);

@@ -1,1 +1,163 @@
 #include <luciole/reference.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include <luciole/error.hpp>
+
+#include "output/display.hpp"
+#include "reference/camera_rays.hpp"
+#include "reference/lights.hpp"
+#include "reference/parallel_rows.hpp"
+#include "reference/surface.hpp"
+#include "scene/visibility.hpp"
+
+namespace luciole {
+namespace reference {
+namespace {
+
+/// All that is known of a pixel; as made, where nothing is.
+struct Pixel {
+    dvec3 radiance{0};
+    double depth = 0;
+    dvec3 normal{0};
+    dvec3 Cs0{0}, Cs1{0};
+    double material = -1, id = -1;
+    double lightCount = 0;
+};
+
+struct Aov {
+    std::string_view name;
+    uint32_t channels;
+    dvec3 (*value)(const Pixel&);
+};
+
+constexpr std::array kAovs{
+    Aov{"depth", 1, [](const Pixel& p) { return dvec3(p.depth); }},
+    Aov{"normal", 3, [](const Pixel& p) { return p.normal; }},
+    Aov{"cs0", 3, [](const Pixel& p) { return p.Cs0; }},
+    Aov{"cs1", 3, [](const Pixel& p) { return p.Cs1; }},
+    Aov{"material", 1, [](const Pixel& p) { return dvec3(p.material); }},
+    Aov{"id", 1, [](const Pixel& p) { return dvec3(p.id); }},
+    Aov{"light-count", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
+};
+
+const Aov& aovNamed(const std::string& name) {
+    const auto* found = std::find_if(kAovs.begin(), kAovs.end(), [&](const Aov& aov) { return aov.name == name; });
+    if (found == kAovs.end()) {
+        std::string names;
+        for (const Aov& aov : kAovs) names += fmt::format("{}{}", names.empty() ? "" : ", ", aov.name);
+        throw Error(ErrorKind::usage, fmt::format("aov: expected one of {}, got {}", names, name));
+    }
+    return *found;
+}
+
+void store(Image& image, uint32_t x, uint32_t y, dvec3 value) {
+    for (uint32_t c = 0; c < image.channels; ++c) image.at(x, y, c) = float(value[int(c)]);
+}
+
+/// The whole renderer: geometry phase and lighting phase of one pixel after the other.
+class Picture {
+public:
+    Picture(const Scene& scene, const View& view)
+        : scene_(scene),
+          rays_(view),
+          visibility_(scene),
+          tables_(scene),
+          surfaces_(scene, tables_),
+          lights_(lightSources(scene, tables_)) {}
+
+    Pixel at(uint32_t x, uint32_t y) const {
+        const Ray ray = rays_.through(x, y);
+        const auto footprint = [&](const Hit& hit) {
+            return footprintOf(rays_, x, y, hit, visibility_.triangleWorld(hit.object, hit.triangle));
+        };
+        const auto isThere = [&](const Hit& hit) { return isOpaque(hit) || surfaces_.isThere(hit, footprint(hit)); };
+        const auto hit = visibility_.closest(ray.origin, ray.direction, rays_.nearest(), isThere);
+        if (!hit || hit->t > rays_.farthest()) return {};
+        return shaded(*hit, surfaces_.pointAt(*hit, footprint(*hit)));
+    }
+
+private:
+    bool isOpaque(const Hit& hit) const {
+        return scene_.materials[scene_.objects[hit.object].material].alphaMode == AlphaMode::opaque;
+    }
+
+    Pixel shaded(const Hit& hit, const SurfacePoint& surface) const {
+        const Object& object = scene_.objects[hit.object];
+        Pixel pixel{.radiance = initialLight(surface, scene_.ambience),
+                    .depth = hit.t,
+                    .normal = surface.N,
+                    .Cs0 = surface.Cs0,
+                    .Cs1 = surface.Cs1,
+                    .material = double(object.material),
+                    .id = double(object.objectId)};
+        const dvec3 V = rays_.toEye(surface.P);
+        for (const LightSource& light : lights_) {
+            const auto arrival = light.arrivalAt(surface.P);
+            if (!arrival) continue;
+            ++pixel.lightCount;
+            if (!light.touches(object.objectId)) continue;
+            const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
+            pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
+        }
+        return pixel;
+    }
+
+    const Scene& scene_;
+    CameraRays rays_;
+    Visibility visibility_;
+    FunctionTables tables_;
+    Surfaces surfaces_;
+    std::vector<LightSource> lights_;
+};
+
+void checkExtent(uvec2 extent) {
+    constexpr uint32_t kMax = 16384;
+    if (extent.x == 0 || extent.y == 0 || extent.x > kMax || extent.y > kMax)
+        throw Error(ErrorKind::usage,
+                    fmt::format("size: expected 1 to {} pixels a side, got {} x {}", kMax, extent.x, extent.y));
+}
+
+}  // namespace
+}  // namespace reference
+
+Frame renderReference(const Scene& scene, const View& view, const RenderSettings& settings,
+                      const std::vector<std::string>& aovs, const std::function<bool(double)>& progress) {
+    using namespace reference;
+    checkExtent(view.extent);
+    const auto start = std::chrono::steady_clock::now();
+    Frame frame;
+    frame.radiance = Image(view.extent.x, view.extent.y, 3);
+    std::vector<std::pair<const Aov*, Image*>> layers;
+    for (const std::string& name : aovs) {
+        const Aov& aov = aovNamed(name);
+        Image& image = frame.aovs[name] = Image(view.extent.x, view.extent.y, aov.channels);
+        layers.emplace_back(&aov, &image);
+    }
+
+    const Picture picture(scene, view);
+    const auto renderRow = [&](uint32_t y) {
+        for (uint32_t x = 0; x < view.extent.x; ++x) {
+            const Pixel pixel = picture.at(x, y);
+            store(frame.radiance, x, y, pixel.radiance);
+            for (const auto& [aov, image] : layers) store(*image, x, y, aov->value(pixel));
+        }
+    };
+    if (!forEachRow(view.extent.y, renderRow, progress)) return {};
+
+    frame.display = displayImage(frame.radiance, scene.exposureEv + settings.exposureEv, settings.toneMap);
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+    frame.stats = {.passes = {{.name = "reference", .ms = wall.count()}},
+                   .wallMs = wall.count(),
+                   .triangles = triangleCount(scene),
+                   .lights = uint32_t(scene.lights.size()),
+                   .deviceName = "CPU",
+                   .driver = Visibility::engine()};
+    return frame;
+}
+
+}  // namespace luciole

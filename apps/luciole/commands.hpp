@@ -1,0 +1,15 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace luciole::cli {
+
+// Each adds one subcommand, which runs while `app` parses. What it prints for programs goes to stdout, all else to
+// stderr; failures leave as luciole::Error.
+void addRenderCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
+void addSceneCommand(CLI::App& app);
+void addDevicesCommand(CLI::App& app);
+void addSettingsCommand(CLI::App& app);
+void addTechniquesCommand(CLI::App& app);
+
+}  // namespace luciole::cli

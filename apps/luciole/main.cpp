@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <luciole/error.hpp>
+#include <luciole/scene_io.hpp>
+#include <memory>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+
+namespace {
+
+using namespace luciole;
+
+/// CLI11's help without its remarks on counts, defaults and exclusions, which the texts give where they matter.
+class HelpFormatter : public CLI::Formatter {
+public:
+    HelpFormatter() { column_width(36); }
+    std::string make_option_opts(const CLI::Option* option) const override {
+        return option->get_type_name().empty() ? "" : " " + option->get_type_name();
+    }
+};
+
+int fail(int exitCode, std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');  // one line, whatever a library says
+    fmt::print(stderr, "luciole: error: {}\n", message);
+    return exitCode;
+}
+
+int fail(ErrorKind kind, const std::string& message) { return fail(int(kind), message); }
+
+std::string helpFooter() {
+    std::string text =
+        "Examples:\n"
+        "  luciole render builtin:hall -o hall.png\n"
+        "  luciole render model.glb -o model.png --size 1920x1080 --tonemap agx\n"
+        "  luciole render model.glb --rig lights.json -o model.exr --aov depth,normal\n"
+        "  luciole info model.glb\n"
+        "\nBuilt-in scenes (give parameters as in builtin:hall?lights=255):\n";
+    for (const BuiltinScene& scene : builtinScenes()) {
+        text += fmt::format("  {:<22} {}\n", fmt::format("builtin:{}", scene.name), scene.help);
+        for (const BuiltinParameter& p : scene.parameters)
+            text += fmt::format("    {:<20} {} ({:.10g} to {:.10g}; {:.10g} if not given)\n", p.name, p.help, p.low,
+                                p.high, p.fallback);
+    }
+    return text +
+           "\nExit codes: 0 done, 2 wrong usage, 3 faulty scene or rig, 4 file can't be read or written,\n"
+           "  5 no usable device, 6 device lost or out of memory, 8 a limit is exceeded, 130 interrupted.\n"
+           "docs/command-line.md says more.\n";
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Luciole renders scenes with many lights.", "luciole");
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_version_flag("--version", "luciole " LUCIOLE_VERSION);
+    app.require_subcommand(1);
+    app.footer(helpFooter);
+    cli::addRenderCommand(app);
+    cli::addInfoCommand(app);
+    cli::addSceneCommand(app);
+    cli::addDevicesCommand(app);
+    cli::addSettingsCommand(app);
+    cli::addTechniquesCommand(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0)
+            throw Error(ErrorKind::usage, fmt::format("{} (see luciole --help)", error.what()));
+        app.exit(error);  // --help and --version arrive as exceptions
+    }
+    if (std::fflush(stdout) != 0)
+        throw Error(ErrorKind::io,
+                    fmt::format("standard output: can't write: {}", std::generic_category().message(errno)));
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        cli::exitOnInterrupt();
+        return run(argc, argv);
+    } catch (const Error& error) {
+        return fail(error.kind(), error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorKind::deviceLost, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(1, error.what());
+    }
+}

@@ -1,0 +1,127 @@
+#include "options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <luciole/error.hpp>
+#include <luciole/scene_io.hpp>
+#include <system_error>
+
+namespace luciole::cli {
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view expected, std::string_view found) {
+    throw Error(ErrorKind::usage, fmt::format("{}: expected {}, got \"{}\"", option, expected, found));
+}
+
+/// All of `text` as a T, or false.
+template <typename T>
+bool parseAll(std::string_view text, T& value) {
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return code == std::errc() && end == text.data() + text.size();
+}
+
+std::string readText(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream.is_open() || stream.bad())
+        throw Error(ErrorKind::io, fmt::format("{}: can't read: {}", file, std::generic_category().message(errno)));
+    return text;
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    command.add_option("SCENE", options.uri, "glTF file (.gltf, .glb) or built-in scene (builtin:NAME?key=value&...)")
+        ->type_name("")
+        ->required();
+    command.add_option("--rig", options.rigs, "lay the lights and materials of a rig file over the scene; repeatable")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group("Scene");
+    command.add_flag("--allow-external", options.allowExternal, "let the scene read files outside its own folder")
+        ->group("Scene");
+}
+
+Scene loadScene(const SceneOptions& options, const Console& console) {
+    Scene scene = luciole::loadScene(options.uri, {.allowExternal = options.allowExternal});
+    for (const std::string& rig : options.rigs) applyRig(scene, rig);
+    console.warn(scene.warnings);
+    return scene;
+}
+
+void addSettingOptions(CLI::App& command, SettingOptions& options) {
+    const RenderSettings defaults;
+    for (const Setting& setting : settingsTable()) {
+        const auto read = [&options, name = setting.name, isSwitch = setting.type == "switch"](std::string value) {
+            if (isSwitch && value == "true") value = "on";  // CLI11's word for an option without a value
+            RenderSettings scratch;                         // so that a bad value is refused before anything is loaded
+            setSetting(scratch, name, value);
+            options.values.emplace_back(name, value);
+        };
+        const std::string flag = fmt::format("--{}", setting.name);
+        const std::string help = fmt::format("{} [{}]", setting.help, setting.get(defaults));
+        CLI::Option* option = addParsed(command, flag, read, help)->group("Settings");
+        if (setting.type == "choice") option->type_name(fmt::format("{}", fmt::join(setting.choices, "|")));
+        if (setting.type == "number") option->type_name("NUMBER");
+        if (setting.type == "name") option->type_name("NAME");
+        // Takes no word after it, only "=on" or "=off": the next word may be the scene.
+        if (setting.type == "switch") option->type_name("[=off]")->expected(0);
+    }
+    command.add_option("--settings", options.file, "read settings from a JSON file; options above win over it")
+        ->type_name("FILE")
+        ->group("Settings");
+}
+
+RenderSettings resolve(const SettingOptions& options) {
+    RenderSettings settings;
+    if (!options.file.empty()) applySettingsText(settings, readText(options.file), options.file);
+    for (const auto& [name, value] : options.values) setSetting(settings, name, value);
+    return settings;
+}
+
+void addConsoleOptions(CLI::App& command, Console& console) {
+    CLI::Option* quiet = command.add_flag("-q,--quiet", console.quiet, "say nothing but errors")->group("Messages");
+    command.add_flag("-v,--verbose", console.verbose, "say more")->excludes(quiet)->group("Messages");
+}
+
+CLI::Option* addParsed(CLI::App& command, const std::string& name, std::function<void(const std::string&)> read,
+                       const std::string& help) {
+    return command.add_option_function<std::string>(name, read, help);
+}
+
+double parseNumber(std::string_view option, std::string_view text) {
+    double value = 0;
+    if (!parseAll(text, value) || !std::isfinite(value)) refuse(option, "a number", text);
+    return value;
+}
+
+uvec2 parseSize(std::string_view option, std::string_view text) {
+    constexpr uint32_t kMaxSide = 16384;
+    uvec2 size{0};
+    const size_t x = text.find('x');
+    const bool read =
+        x != std::string_view::npos && parseAll(text.substr(0, x), size.x) && parseAll(text.substr(x + 1), size.y);
+    if (!read || size.x < 1 || size.y < 1 || size.x > kMaxSide || size.y > kMaxSide)
+        refuse(option, fmt::format("WIDTHxHEIGHT, each from 1 to {}", kMaxSide), text);
+    return size;
+}
+
+std::vector<double> parseNumbers(std::string_view option, std::string_view text, size_t count) {
+    std::vector<double> numbers;
+    for (std::string_view rest = text;;) {
+        const size_t comma = rest.find(',');
+        numbers.push_back(parseNumber(option, rest.substr(0, comma)));
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    if (numbers.size() != count) refuse(option, fmt::format("{} numbers with commas between", count), text);
+    return numbers;
+}
+
+}  // namespace luciole::cli

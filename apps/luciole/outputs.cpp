@@ -1,0 +1,119 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <luciole/error.hpp>
+#include <set>
+#include <system_error>
+
+#include "interrupt.hpp"
+
+namespace luciole::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool hasExtension(const fs::path& file, std::string_view wanted) {
+    const std::string extension = file.extension().string();
+    return std::equal(extension.begin(), extension.end(), wanted.begin(), wanted.end(),
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
+}
+
+bool isExr(const fs::path& file) { return hasExtension(file, ".exr"); }
+
+void checkAovs(const OutputOptions& options) {
+    if (options.aovs.empty()) return;
+    const auto& known = aovNames();
+    for (const std::string& aov : options.aovs)
+        if (std::find(known.begin(), known.end(), aov) == known.end())
+            throw Error(ErrorKind::usage,
+                        fmt::format("--aov: expected some of {}, got \"{}\"", fmt::join(known, ", "), aov));
+    if (std::none_of(options.files.begin(), options.files.end(), isExr))
+        throw Error(ErrorKind::usage, "--aov: PNG has no layers; add an output that ends in .exr");
+}
+
+}  // namespace
+
+void addOutputOptions(CLI::App& command, OutputOptions& options) {
+    command.add_option("-o,--output", options.files, "picture to write, .png (as shown) or .exr (linear); repeatable")
+        ->type_name("FILE")
+        ->required()
+        ->allow_extra_args(false)
+        ->group("Output");
+    addParsed(
+        command, "--bits",
+        [&](const std::string& text) {
+            if (text != "8" && text != "16")
+                throw Error(ErrorKind::usage, fmt::format("--bits: expected 8 or 16, got \"{}\"", text));
+            options.bits = text == "8" ? 8 : 16;
+        },
+        "bits per channel of PNG [8]")
+        ->type_name("8|16")
+        ->group("Output");
+    addParsed(
+        command, "--exr-type",
+        [&](const std::string& text) {
+            if (text != "half" && text != "float")
+                throw Error(ErrorKind::usage, fmt::format("--exr-type: expected half or float, got \"{}\"", text));
+            options.exrType = text == "half" ? ExrType::half : ExrType::float32;
+        },
+        "numbers of EXR [half]")
+        ->type_name("half|float")
+        ->group("Output");
+    command.add_option("--aov", options.aovs, fmt::format("more layers for EXR: {}", fmt::join(aovNames(), ", ")))
+        ->type_name("NAME,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->group("Output");
+    command.add_option("--dump-graph", options.graphFile, "write the frame graph in Graphviz's language")
+        ->type_name("FILE.dot")
+        ->group("Output");
+}
+
+void checkOutputs(const OutputOptions& options) {
+    std::set<fs::path> seen;
+    for (const fs::path file : options.files) {
+        if (!isExr(file) && !hasExtension(file, ".png"))
+            throw Error(ErrorKind::usage, fmt::format("{}: expected a name that ends in .png or .exr", file.string()));
+        if (!seen.insert(fs::absolute(file).lexically_normal()).second)
+            throw Error(ErrorKind::usage, fmt::format("{}: named twice as output", file.string()));
+        requireWritable(file);
+    }
+    checkAovs(options);
+    if (!options.graphFile.empty()) requireWritable(options.graphFile);
+}
+
+void writeOutputs(const OutputOptions& options, const Frame& frame) {
+    for (const fs::path file : options.files) {
+        const FinishFirst guard;
+        if (isExr(file)) {
+            std::map<std::string, Image> layers = frame.aovs;
+            layers[""] = frame.radiance;
+            writeExr(file, layers, options.exrType);
+        } else {
+            writePng(file, frame.display, options.bits);
+        }
+    }
+    if (!options.graphFile.empty()) {
+        const FinishFirst guard;
+        writeFileAtomically(options.graphFile, std::as_bytes(std::span(frame.graph)));
+    }
+}
+
+void requireWritable(const fs::path& file) {
+    const auto fail = [&](int code) {
+        throw Error(ErrorKind::io,
+                    fmt::format("{}: can't write: {}", file.string(), std::generic_category().message(code)));
+    };
+    if (fs::is_directory(file)) fail(EISDIR);
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(errno);
+    if (!fs::is_directory(folder)) fail(ENOTDIR);
+}
+
+}  // namespace luciole::cli

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <luciole/output.hpp>
+#include <luciole/renderer.hpp>
+
+#include "options.hpp"
+
+namespace luciole::cli {
+
+/// Where a rendered picture goes.
+struct OutputOptions {
+    std::vector<std::string> files;  ///< .png or .exr
+    int bits = 8;                    ///< of PNG
+    ExrType exrType = ExrType::half;
+    std::vector<std::string> aovs;  ///< layers of EXR
+    std::string graphFile;          ///< Graphviz; empty: none
+};
+void addOutputOptions(CLI::App& command, OutputOptions& options);
+
+/// Finds before the rendering what would otherwise fail after it.
+/// \throws Error(usage) for names and combinations, Error(io) for folders
+void checkOutputs(const OutputOptions& options);
+
+void writeOutputs(const OutputOptions& options, const Frame& frame);
+
+/// \throws Error(io) if `file` can't be made or replaced
+void requireWritable(const std::filesystem::path& file);
+
+}  // namespace luciole::cli

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <luciole/error.hpp>
+#include <luciole/reference.hpp>
+#include <memory>
+
+#include "commands.hpp"
+#include "default_light.hpp"
+#include "options.hpp"
+#include "outputs.hpp"
+#include "statistics.hpp"
+#include "view.hpp"
+
+namespace luciole::cli {
+namespace {
+
+constexpr std::string_view kReference = "reference";  ///< the one technique that needs no device
+
+struct RenderOptions {
+    SceneOptions scene;
+    ViewOptions view;
+    SettingOptions settings;
+    OutputOptions output;
+    RendererOptions renderer;
+    Console console;
+    bool defaultLight = true;
+    bool json = false;
+    bool stats = false;
+};
+
+void addDeviceOptions(CLI::App& command, RendererOptions& options) {
+    command
+        .add_option("--device", options.device,
+                    "index or part of a name, as `luciole devices` says [a discrete GPU, else any GPU, else software]")
+        ->type_name("INDEX|NAME")
+        ->group("Device");
+    command.add_flag("--validation", options.validation, "let Vulkan check every call, and say what it finds")
+        ->group("Device");
+}
+
+void addReportOptions(CLI::App& command, RenderOptions& options) {
+    command.add_flag("--json", options.json, "print statistics as JSON on standard output")->group("Messages");
+    command.add_flag("--stats", options.stats, "print a table of the passes on standard error")->group("Messages");
+    addConsoleOptions(command, options.console);
+}
+
+void addDefaultLightOption(CLI::App& command, RenderOptions& options) {
+    addParsed(
+        command, "--default-light",
+        [&](const std::string& text) {
+            if (text != "auto" && text != "off")
+                throw Error(ErrorKind::usage, fmt::format("--default-light: expected auto or off, got \"{}\"", text));
+            options.defaultLight = text == "auto";
+        },
+        "auto: light a scene that has no light of its own [auto]")
+        ->type_name("auto|off")
+        ->group("Scene");
+}
+
+void requireTechnique(const std::string& name) {
+    const auto& known = lightingTechniques();
+    if (std::any_of(known.begin(), known.end(), [&](const auto& technique) { return technique.name == name; })) return;
+    std::string names;
+    for (const auto& technique : known) names += fmt::format("{}{}", names.empty() ? "" : ", ", technique.name);
+    throw Error(ErrorKind::usage, fmt::format("lighting: expected one of {}, got \"{}\"", names, name));
+}
+
+Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, const Scene& scene, const View& view) {
+    if (settings.lighting == kReference) {
+        ProgressLine progress(options.console, "reference:");
+        return renderReference(scene, view, settings, options.output.aovs, [&](double share) {
+            progress.show(share);
+            return true;
+        });
+    }
+    RendererOptions rendererOptions = options.renderer;
+    rendererOptions.onMessage = [](std::string_view message) { fmt::print(stderr, "luciole: {}\n", message); };
+    Renderer renderer(rendererOptions);
+    options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
+    renderer.setScene(scene);
+    return renderer.render(view, settings, options.output.aovs);
+}
+
+/// Everything that can be refused is checked before the scene is read, and again before the frame is rendered.
+void run(const RenderOptions& options) {
+    const RenderSettings settings = resolve(options.settings);
+    requireTechnique(settings.lighting);
+    if (settings.lighting == kReference && !options.output.graphFile.empty())
+        throw Error(ErrorKind::usage, "--dump-graph: the reference has no frame graph");
+    checkOutputs(options.output);
+
+    const auto start = std::chrono::steady_clock::now();
+    const auto sinceStart = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Scene scene = loadScene(options.scene, options.console);
+    options.console.detail(fmt::format("{:.2f} s: scene loaded", sinceStart()));
+    const View view = chooseView(scene, options.view);
+    if (options.defaultLight && needsDefaultLight(scene)) {
+        addDefaultLight(scene, view.camera);
+        options.console.note("the scene has no light; added a soft one (--default-light off leaves it dark)");
+    }
+    const Frame frame = renderFrame(options, settings, scene, view);
+    options.console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
+    options.console.warn(frame.stats.warnings);
+    writeOutputs(options.output, frame);
+    options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
+    if (options.stats) fmt::print(stderr, "{}", statisticsTable(frame.stats));
+    if (options.json) fmt::print("{}\n", statisticsJson(frame, settings));
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("render", "render a scene to a picture");
+    const auto options = std::make_shared<RenderOptions>();
+    addSceneOptions(*command, options->scene);
+    addDefaultLightOption(*command, *options);
+    addViewOptions(*command, options->view);
+    addSettingOptions(*command, options->settings);
+    addOutputOptions(*command, options->output);
+    addDeviceOptions(*command, options->renderer);
+    addReportOptions(*command, *options);
+    command->footer(
+        "Examples:\n"
+        "  luciole render builtin:hall -o hall.png --size 1920x1080 --stats\n"
+        "  luciole render model.glb -o model.png -o model.exr --aov depth,normal\n"
+        "  luciole render model.glb -o truth.png --lighting reference\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace luciole::cli

@@ -1,0 +1,57 @@
+#include "frame/access.hpp"
+
+namespace luciole::frame {
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Mask = vk::AccessFlagBits2;
+using Layout = vk::ImageLayout;
+using ImageUse = vk::ImageUsageFlagBits;
+using BufferUse = vk::BufferUsageFlagBits;
+
+const vk::PipelineStageFlags2 kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+const vk::PipelineStageFlags2 kDrawStages = Stage::eVertexShader | Stage::eFragmentShader;
+
+// In the order of enum Access.
+const AccessInfo kTable[] = {
+    {"color write", Stage::eColorAttachmentOutput, Mask::eColorAttachmentWrite, Layout::eColorAttachmentOptimal,
+     ImageUse::eColorAttachment, {}, true},
+    {"color blend", Stage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite,
+     Layout::eColorAttachmentOptimal, ImageUse::eColorAttachment, {}, true},
+    {"depth write", kDepthStages, Mask::eDepthStencilAttachmentRead | Mask::eDepthStencilAttachmentWrite,
+     Layout::eDepthAttachmentOptimal, ImageUse::eDepthStencilAttachment, {}, true},
+    {"depth test", kDepthStages, Mask::eDepthStencilAttachmentRead, Layout::eDepthReadOnlyOptimal,
+     ImageUse::eDepthStencilAttachment, {}, false},
+    {"fragment sampled", Stage::eFragmentShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled,
+     {}, false},
+    {"fragment storage read", kDrawStages, Mask::eShaderStorageRead, Layout::eGeneral, ImageUse::eStorage,
+     BufferUse::eStorageBuffer, false},
+    {"compute sampled", Stage::eComputeShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled,
+     {}, false},
+    {"compute storage read", Stage::eComputeShader, Mask::eShaderStorageRead, Layout::eGeneral, ImageUse::eStorage,
+     BufferUse::eStorageBuffer, false},
+    {"compute storage write", Stage::eComputeShader, Mask::eShaderStorageRead | Mask::eShaderStorageWrite, Layout::eGeneral,
+     ImageUse::eStorage, BufferUse::eStorageBuffer, true},
+    {"transfer read", Stage::eTransfer, Mask::eTransferRead, Layout::eTransferSrcOptimal, ImageUse::eTransferSrc,
+     BufferUse::eTransferSrc, false},
+    {"transfer write", Stage::eTransfer, Mask::eTransferWrite, Layout::eTransferDstOptimal, ImageUse::eTransferDst,
+     BufferUse::eTransferDst, true},
+    {"host read", Stage::eHost, Mask::eHostRead, Layout::eGeneral, {}, {}, false},
+};
+static_assert(std::size(kTable) == size_t(Access::hostRead) + 1);
+
+}  // namespace
+
+const AccessInfo& infoOf(Access access) { return kTable[size_t(access)]; }
+
+vk::ImageLayout layoutOf(Access access, vk::Format format) {
+    const bool sampled = access == Access::fragmentSampled || access == Access::computeSampled;
+    return sampled && format == vk::Format::eD32Sfloat ? Layout::eDepthReadOnlyOptimal : infoOf(access).layout;
+}
+
+vk::AccessFlags2 writesOf(vk::AccessFlags2 access) {
+    return access & (Mask::eColorAttachmentWrite | Mask::eDepthStencilAttachmentWrite | Mask::eShaderStorageWrite |
+                     Mask::eTransferWrite | Mask::eHostWrite | Mask::eMemoryWrite);
+}
+
+}  // namespace luciole::frame

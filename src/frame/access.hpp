@@ -1,0 +1,39 @@
+#pragma once
+#include "gpu/vulkan.hpp"
+
+namespace luciole::frame {
+
+/// How a pass touches a resource. One table (access.cpp) maps each to stages, access mask, layout and usage.
+enum class Access : uint8_t {
+    colorWrite,           ///< colour attachment, cleared or wholly overwritten
+    colorBlend,           ///< colour attachment, blended over what is there
+    depthWrite,           ///< depth attachment, tested and written
+    depthTest,            ///< depth attachment, tested only
+    fragmentSampled,      ///< texture in fragment shaders; also of a depth image that is tested in the same pass
+    fragmentStorageRead,  ///< storage buffer in vertex and fragment shaders
+    computeSampled,
+    computeStorageRead,
+    computeStorageWrite,  ///< storage image or buffer, written (and perhaps read) by compute
+    transferRead,
+    transferWrite,
+    hostRead,             ///< by the host after the frame
+};
+
+struct AccessInfo {
+    const char* name;
+    vk::PipelineStageFlags2 stages;
+    vk::AccessFlags2 access;
+    vk::ImageLayout layout;
+    vk::ImageUsageFlags imageUsage;
+    vk::BufferUsageFlags bufferUsage;
+    bool writes;
+};
+const AccessInfo& infoOf(Access access);
+
+/// The layout of an image of `format` under `access`: sampled depth stays in the layout that allows testing, too.
+vk::ImageLayout layoutOf(Access access, vk::Format format);
+
+/// The part of an access mask that writes.
+vk::AccessFlags2 writesOf(vk::AccessFlags2 access);
+
+}  // namespace luciole::frame

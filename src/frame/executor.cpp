@@ -1,0 +1,245 @@
+#include "frame/executor.hpp"
+
+#include <fmt/format.h>
+
+#include "frame/pass_context.hpp"
+#include "gpu/bindings.shared.h"
+
+namespace luciole::frame {
+namespace {
+
+bool isAttachment(Access access) {
+    return access == Access::colorWrite || access == Access::colorBlend || access == Access::depthWrite ||
+           access == Access::depthTest;
+}
+
+vk::DescriptorType descriptorType(const Resource& resource, Access access) {
+    if (!resource.isImage()) return vk::DescriptorType::eStorageBuffer;
+    return access == Access::fragmentSampled || access == Access::computeSampled ? vk::DescriptorType::eCombinedImageSampler
+                                                                                  : vk::DescriptorType::eStorageImage;
+}
+
+}  // namespace
+
+Executor::Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph)
+    : context_(context), pipelines_(pipelines), graph_(std::move(graph)), compiled_(graph_.compile()) {
+    createResources();
+    sampler_ = vk::raii::Sampler(context_.device(), {.magFilter = vk::Filter::eNearest,
+                                                     .minFilter = vk::Filter::eNearest,
+                                                     .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                                     .addressModeV = vk::SamplerAddressMode::eClampToEdge});
+    createPassSets();
+    const auto passes = uint32_t(compiled_.passes.size());
+    queries_ = vk::raii::QueryPool(context_.device(),
+                                   {.queryType = vk::QueryType::eTimestamp, .queryCount = std::max(1u, passes + 1)});
+    commandBuffers_ = vk::raii::CommandBuffers(context_.device(), {.commandPool = *context_.commandPool(),
+                                                                   .level = vk::CommandBufferLevel::ePrimary,
+                                                                   .commandBufferCount = 1});
+}
+
+void Executor::createResources() {
+    for (uint32_t r = 0; r < graph_.resources().size(); ++r) {
+        if (!compiled_.used[r]) continue;
+        const Resource& resource = graph_.resources()[r];
+        vk::ImageUsageFlags imageUsage;
+        vk::BufferUsageFlags bufferUsage;
+        for (const CompiledPass& compiled : compiled_.passes)
+            for (const Use& use : graph_.passes()[compiled.pass].uses) {
+                if (use.resource != r) continue;
+                imageUsage |= infoOf(use.access).imageUsage;
+                bufferUsage |= infoOf(use.access).bufferUsage;
+            }
+        if (resource.isImage())
+            images_.emplace(r, gpu::makeImage(context_, resource.name,
+                                              {.format = resource.image.format, .extent = resource.image.extent, .usage = imageUsage}));
+        else if (graph_.isOutput(r))
+            hostBuffers_.emplace(r, gpu::MappedBuffer(context_, resource.name, resource.bufferBytes, bufferUsage, gpu::Residence::hostCached));
+        else
+            buffers_.emplace(r, gpu::makeBuffer(context_, resource.name, resource.bufferBytes, bufferUsage));
+    }
+}
+
+vk::Buffer Executor::bufferHandle(uint32_t resource) const {
+    const auto host = hostBuffers_.find(resource);
+    return host != hostBuffers_.end() ? host->second.handle() : *buffers_.at(resource).handle;
+}
+
+void Executor::createPassSets() {
+    const auto passes = uint32_t(compiled_.passes.size());
+    if (passes == 0) return;
+    using namespace shared;
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, passes * kPassSampledCount},
+                                            {vk::DescriptorType::eStorageImage, passes * kPassStorageImageCount},
+                                            {vk::DescriptorType::eStorageBuffer, passes * kPassStorageBufferCount}};
+    pool_ = vk::raii::DescriptorPool(context_.device(), {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                         .maxSets = passes,
+                                                         .poolSizeCount = uint32_t(std::size(sizes)),
+                                                         .pPoolSizes = sizes});
+    const std::vector<vk::DescriptorSetLayout> layouts(passes, pipelines_.passSetLayout());
+    passSets_ = vk::raii::DescriptorSets(
+        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = passes, .pSetLayouts = layouts.data()});
+    for (uint32_t i = 0; i < passes; ++i)
+        for (const Use& use : graph_.passes()[compiled_.passes[i].pass].uses) {
+            if (use.binding == kNoBinding) continue;
+            const Resource& resource = graph_.resources()[use.resource];
+            vk::DescriptorImageInfo image{.sampler = *sampler_};
+            vk::DescriptorBufferInfo bufferInfo{.range = VK_WHOLE_SIZE};
+            if (resource.isImage()) {
+                image.imageView = *images_.at(use.resource).view;
+                image.imageLayout = layoutOf(use.access, resource.image.format);
+            } else {
+                bufferInfo.buffer = bufferHandle(use.resource);
+            }
+            context_.device().updateDescriptorSets(
+                vk::WriteDescriptorSet{.dstSet = *passSets_[i],
+                                       .dstBinding = use.binding,
+                                       .descriptorCount = 1,
+                                       .descriptorType = descriptorType(resource, use.access),
+                                       .pImageInfo = &image,
+                                       .pBufferInfo = &bufferInfo},
+                nullptr);
+        }
+}
+
+void Executor::recordBarriers(const std::vector<Barrier>& barriers) const {
+    std::vector<vk::ImageMemoryBarrier2> images;
+    std::vector<vk::BufferMemoryBarrier2> buffers;
+    for (const Barrier& barrier : barriers) {
+        const Resource& resource = graph_.resources()[barrier.resource];
+        if (resource.isImage())
+            images.push_back({.srcStageMask = barrier.srcStages,
+                              .srcAccessMask = barrier.srcAccess,
+                              .dstStageMask = barrier.dstStages,
+                              .dstAccessMask = barrier.dstAccess,
+                              .oldLayout = barrier.oldLayout,
+                              .newLayout = barrier.newLayout,
+                              .image = *images_.at(barrier.resource).handle,
+                              .subresourceRange = {gpu::aspectOf(resource.image.format), 0, 1, 0, 1}});
+        else
+            buffers.push_back({.srcStageMask = barrier.srcStages,
+                               .srcAccessMask = barrier.srcAccess,
+                               .dstStageMask = barrier.dstStages,
+                               .dstAccessMask = barrier.dstAccess,
+                               .buffer = bufferHandle(barrier.resource),
+                               .size = VK_WHOLE_SIZE});
+    }
+    if (images.empty() && buffers.empty()) return;
+    commandBuffers_.front().pipelineBarrier2({.bufferMemoryBarrierCount = uint32_t(buffers.size()),
+                           .pBufferMemoryBarriers = buffers.data(),
+                           .imageMemoryBarrierCount = uint32_t(images.size()),
+                           .pImageMemoryBarriers = images.data()});
+}
+
+void Executor::timestamp(uint32_t query) const {
+    const auto& commands = commandBuffers_.front();
+    commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, query);
+    const vk::MemoryBarrier2 everything{
+        .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .srcAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+        .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+        .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite};
+    commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &everything});
+}
+
+void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
+    const auto& commands = commandBuffers_.front();
+    const Pass& pass = graph_.passes()[compiled_.passes[index].pass];
+    std::vector<vk::RenderingAttachmentInfo> colors;
+    std::vector<vk::Format> colorFormats;
+    vk::RenderingAttachmentInfo depth;
+    vk::Format depthFormat = vk::Format::eUndefined;
+    vk::Extent2D extent;
+    for (const Use& use : pass.uses) {
+        if (!isAttachment(use.access)) continue;
+        const Resource& resource = graph_.resources()[use.resource];
+        extent = resource.image.extent;
+        const bool keeps = use.access == Access::colorBlend || use.access == Access::depthWrite || use.access == Access::depthTest;
+        const vk::RenderingAttachmentInfo attachment{
+            .imageView = *images_.at(use.resource).view,
+            .imageLayout = layoutOf(use.access, resource.image.format),
+            .loadOp = use.clear ? vk::AttachmentLoadOp::eClear : keeps ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,
+            .storeOp = use.access == Access::depthTest ? vk::AttachmentStoreOp::eNone : vk::AttachmentStoreOp::eStore,
+            .clearValue = use.clear.value_or(vk::ClearValue{})};
+        if (use.access == Access::depthWrite || use.access == Access::depthTest) {
+            depth = attachment;
+            depthFormat = resource.image.format;
+        } else {
+            colors.push_back(attachment);
+            colorFormats.push_back(resource.image.format);
+        }
+    }
+    const bool renders = extent.width != 0;
+    const vk::DescriptorSet sets[] = {frameSet, *passSets_[index]};
+    for (const auto point : {vk::PipelineBindPoint::eGraphics, vk::PipelineBindPoint::eCompute})
+        if (renders == (point == vk::PipelineBindPoint::eGraphics))
+            commands.bindDescriptorSets(point, pipelines_.layout(), 0, sets, nullptr);
+    PassContext context(commands, pipelines_, *this, colorFormats, depthFormat, extent);
+    if (renders) {
+        commands.beginRendering({.renderArea = {{0, 0}, extent},
+                                 .layerCount = 1,
+                                 .colorAttachmentCount = uint32_t(colors.size()),
+                                 .pColorAttachments = colors.data(),
+                                 .pDepthAttachment = depth.imageView ? &depth : nullptr});
+        commands.setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
+        commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
+        commands.setCullMode(vk::CullModeFlagBits::eNone);
+        commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+        commands.setDepthTestEnable(false);
+        commands.setDepthWriteEnable(false);
+        commands.setDepthCompareOp(vk::CompareOp::eAlways);
+    }
+    if (pass.record) pass.record(context);
+    if (renders) commands.endRendering();
+}
+
+void Executor::record(vk::DescriptorSet frameSet, bool measure) {
+    const auto& commands = commandBuffers_.front();
+    const auto passes = uint32_t(compiled_.passes.size());
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    if (measure) {
+        commands.resetQueryPool(*queries_, 0, passes + 1);
+        timestamp(0);
+    }
+    for (uint32_t i = 0; i < passes; ++i) {
+        const std::string& name = graph_.passes()[compiled_.passes[i].pass].name;
+        if (context_.labels()) commands.beginDebugUtilsLabelEXT({.pLabelName = name.c_str()});
+        recordBarriers(compiled_.passes[i].barriers);
+        recordPass(i, frameSet);
+        if (context_.labels()) commands.endDebugUtilsLabelEXT();
+        if (measure) timestamp(i + 1);
+    }
+    recordBarriers(compiled_.finalBarriers);
+    commands.end();
+}
+
+void Executor::run(vk::DescriptorSet frameSet, bool measure) {
+    record(frameSet, measure);
+    context_.submitAndWait(commandBuffers_.front());
+    passMs_.clear();
+    if (!measure) return;
+    const auto count = uint32_t(compiled_.passes.size()) + 1;
+    const auto [result, ticks] = queries_.getResults<uint64_t>(0, count, count * sizeof(uint64_t), sizeof(uint64_t),
+                                                               vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    for (uint32_t i = 0; i + 1 < count; ++i)
+        passMs_.push_back(double(ticks[i + 1] - ticks[i]) * double(context_.limits().timestampPeriod) * 1e-6);
+}
+
+std::vector<PassStats> Executor::stats() const {
+    std::vector<PassStats> stats;
+    for (uint32_t i = 0; i < compiled_.passes.size(); ++i) {
+        const Pass& pass = graph_.passes()[compiled_.passes[i].pass];
+        PassStats row{.name = pass.name};
+        if (!passMs_.empty()) row.ms = passMs_[i];
+        for (const Use& use : pass.uses) row.bytes += graph_.resources()[use.resource].bytes();
+        stats.push_back(std::move(row));
+    }
+    return stats;
+}
+
+std::string Executor::dot() const {
+    std::vector<std::string> notes;
+    for (const double ms : passMs_) notes.push_back(fmt::format("{:.2f} ms", ms));
+    return toDot(graph_, compiled_, notes);
+}
+
+}  // namespace luciole::frame

@@ -1,0 +1,54 @@
+#pragma once
+#include <map>
+
+#include "frame/graph.hpp"
+#include "gpu/pipelines.hpp"
+#include "gpu/resources.hpp"
+
+namespace luciole::frame {
+
+/// A compiled graph with its device resources: made once, run as often as wanted.
+class Executor {
+public:
+    Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph);
+
+    /// Runs one frame and waits for it. \param frameSet bound as set 0 of every pass
+    /// \param measure timestamps each pass, with a full barrier after each timestamp: without it the times of passes
+    ///        that the driver overlaps or merges are wrong
+    void run(vk::DescriptorSet frameSet, bool measure);
+
+    /// What the frame left in a buffer declared as an output. Host-visible.
+    template <typename T>
+    std::span<const T> read(BufferId buffer) const { return hostBuffers_.at(buffer.index).template read<T>(); }
+
+    std::vector<PassStats> stats() const;  ///< of the last run, in order
+    std::string dot() const;               ///< with the times of the last run, if measured
+
+    vk::Image image(ImageId id) const { return *images_.at(id.index).handle; }
+    vk::Buffer buffer(BufferId id) const { return bufferHandle(id.index); }
+
+private:
+    void createResources();
+    void createPassSets();
+    void record(vk::DescriptorSet frameSet, bool measure);
+    void recordPass(uint32_t index, vk::DescriptorSet frameSet);
+    void recordBarriers(const std::vector<Barrier>& barriers) const;
+    void timestamp(uint32_t query) const;
+    vk::Buffer bufferHandle(uint32_t resource) const;
+
+    const gpu::Context& context_;
+    gpu::Pipelines& pipelines_;
+    FrameGraph graph_;
+    CompiledGraph compiled_;
+    std::map<uint32_t, gpu::Image> images_;
+    std::map<uint32_t, gpu::Buffer> buffers_;
+    std::map<uint32_t, gpu::MappedBuffer> hostBuffers_;
+    vk::raii::Sampler sampler_ = nullptr;  // set 1 is read by texelFetch: nearest, clamped
+    vk::raii::DescriptorPool pool_ = nullptr;
+    std::vector<vk::raii::DescriptorSet> passSets_;
+    vk::raii::QueryPool queries_ = nullptr;
+    vk::raii::CommandBuffers commandBuffers_ = nullptr;
+    std::vector<double> passMs_;  // empty until measured
+};
+
+}  // namespace luciole::frame

@@ -1,0 +1,183 @@
+#include "frame/graph.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "frame/hazards.hpp"
+#include "gpu/resources.hpp"
+
+namespace luciole::frame {
+namespace {
+
+[[noreturn]] void misuse(const Pass& pass, const Resource& resource, const std::string& what) {
+    throw std::logic_error(fmt::format("frame graph: pass {}: {}: {}", pass.name, resource.name, what));
+}
+
+/// Consecutive accesses to one resource that need nothing between them: one write, or any number of reads in one layout.
+struct Epoch {
+    CombinedUse use;
+    uint32_t firstPass;  ///< index into the compiled order
+};
+
+std::vector<Epoch> epochsOf(const FrameGraph& graph, const std::vector<CompiledPass>& order, uint32_t resource) {
+    std::vector<Epoch> epochs;
+    for (uint32_t i = 0; i < order.size(); ++i) {
+        const auto use = combinedUse(graph, graph.passes()[order[i].pass], resource);
+        if (!use) continue;
+        const bool joins = !epochs.empty() && !epochs.back().use.writes && !use->writes && epochs.back().use.layout == use->layout;
+        if (joins) {
+            epochs.back().use.stages |= use->stages;
+            epochs.back().use.access |= use->access;
+        } else {
+            epochs.push_back({*use, i});
+        }
+    }
+    return epochs;
+}
+
+/// Which passes lead to an output, from the last to the first.
+std::vector<bool> passesThatMatter(const FrameGraph& graph, std::vector<bool> wanted) {
+    const auto& passes = graph.passes();
+    std::vector<bool> matters(passes.size());
+    for (size_t i = passes.size(); i-- > 0;) {
+        for (const Use& use : passes[i].uses)
+            if (infoOf(use.access).writes && wanted[use.resource]) matters[i] = true;
+        if (!matters[i]) continue;
+        for (const Use& use : passes[i].uses) {
+            const auto combined = combinedUse(graph, passes[i], use.resource);
+            wanted[use.resource] = !combined->overwrites;
+        }
+    }
+    return matters;
+}
+
+}  // namespace
+
+uint64_t Resource::bytes() const {
+    return isImage() ? uint64_t(image.extent.width) * image.extent.height * gpu::bytesPerTexel(image.format) : bufferBytes;
+}
+
+std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass, uint32_t resource) {
+    std::optional<CombinedUse> combined;
+    const Resource& target = graph.resources()[resource];
+    for (const Use& use : pass.uses) {
+        if (use.resource != resource) continue;
+        const AccessInfo& info = infoOf(use.access);
+        const auto layout = target.isImage() ? layoutOf(use.access, target.image.format) : vk::ImageLayout::eUndefined;
+        if (!combined) combined = CombinedUse{.layout = layout};
+        if (combined->layout != layout)
+            misuse(pass, target, fmt::format("expected one layout in a pass, found {} and {}", vk::to_string(combined->layout),
+                                             vk::to_string(layout)));
+        combined->stages |= info.stages;
+        combined->access |= info.access;
+        combined->writes |= info.writes;
+        combined->overwrites |= use.access == Access::colorWrite || use.access == Access::transferWrite || use.clear.has_value();
+    }
+    return combined;
+}
+
+PassBuilder& PassBuilder::use(uint32_t resource, Access access, uint32_t binding, bool writes,
+                              std::optional<vk::ClearValue> clear) {
+    Pass& pass = graph_.passes_[pass_];
+    const Resource& target = graph_.resources_.at(resource);
+    const AccessInfo& info = infoOf(access);
+    if (info.writes != writes)
+        misuse(pass, target, fmt::format("{} declared as a {}", info.name, writes ? "write" : "read"));
+    if (target.isImage() ? !info.imageUsage : !info.bufferUsage)
+        misuse(pass, target, fmt::format("{} is not for {}", info.name, target.isImage() ? "images" : "buffers"));
+    pass.uses.push_back({resource, access, binding, clear});
+    return *this;
+}
+
+PassBuilder& PassBuilder::read(ImageId image, Access access, uint32_t binding) { return use(image.index, access, binding, false); }
+PassBuilder& PassBuilder::read(BufferId buffer, Access access, uint32_t binding) { return use(buffer.index, access, binding, false); }
+PassBuilder& PassBuilder::write(ImageId image, Access access, uint32_t binding) { return use(image.index, access, binding, true); }
+PassBuilder& PassBuilder::write(BufferId buffer, Access access, uint32_t binding) { return use(buffer.index, access, binding, true); }
+PassBuilder& PassBuilder::clear(ImageId image, Access access, vk::ClearValue value) {
+    return use(image.index, access, kNoBinding, true, value);
+}
+void PassBuilder::record(std::function<void(PassContext&)> record) { graph_.passes_[pass_].record = std::move(record); }
+
+ImageId FrameGraph::createImage(std::string name, ImageDesc desc) {
+    resources_.push_back({.name = std::move(name), .image = desc});
+    return {uint32_t(resources_.size() - 1)};
+}
+
+BufferId FrameGraph::createBuffer(std::string name, uint64_t bytes) {
+    resources_.push_back({.name = std::move(name), .bufferBytes = std::max<uint64_t>(bytes, 1)});
+    return {uint32_t(resources_.size() - 1)};
+}
+
+PassBuilder FrameGraph::addPass(std::string name) {
+    passes_.push_back({.name = std::move(name)});
+    return PassBuilder(*this, uint32_t(passes_.size() - 1));
+}
+
+void FrameGraph::output(BufferId buffer) { outputs_.push_back(buffer.index); }
+
+bool FrameGraph::isOutput(uint32_t resource) const { return std::ranges::find(outputs_, resource) != outputs_.end(); }
+
+CompiledGraph FrameGraph::compile() const {
+    CompiledGraph compiled{.used = std::vector<bool>(resources_.size())};
+    std::vector<bool> wanted(resources_.size());
+    for (const uint32_t output : outputs_) wanted[output] = true;
+    const std::vector<bool> matters = passesThatMatter(*this, wanted);
+    for (uint32_t i = 0; i < passes_.size(); ++i)
+        if (matters[i]) compiled.passes.push_back({i, {}});
+
+    for (uint32_t resource = 0; resource < resources_.size(); ++resource) {
+        const auto epochs = epochsOf(*this, compiled.passes, resource);
+        // What the last frame did is over: frames wait for their fence. So the first access waits for nothing.
+        CombinedUse previous{.stages = vk::PipelineStageFlagBits2::eNone};
+        for (const Epoch& epoch : epochs) {
+            compiled.used[resource] = true;
+            CompiledPass& pass = compiled.passes[epoch.firstPass];
+            const bool first = &epoch == &epochs.front();
+            if (first && !epoch.use.overwrites)
+                misuse(passes_[pass.pass], resources_[resource], "used before anything was written to it");
+            if (!first || resources_[resource].isImage())
+                pass.barriers.push_back({resource, previous.stages, epoch.use.stages, writesOf(previous.access), epoch.use.access,
+                                         epoch.use.overwrites ? vk::ImageLayout::eUndefined : previous.layout, epoch.use.layout});
+            previous = epoch.use;
+        }
+        if (isOutput(resource)) {
+            if (epochs.empty())
+                throw std::logic_error(fmt::format("frame graph: {}: an output that no pass writes", resources_[resource].name));
+            const AccessInfo& host = infoOf(Access::hostRead);
+            compiled.finalBarriers.push_back({resource, previous.stages, host.stages, writesOf(previous.access), host.access});
+        }
+    }
+    if (const auto hazards = findHazards(*this, compiled); !hazards.empty())
+        throw std::logic_error("frame graph: " + hazards.front());
+    return compiled;
+}
+
+std::string toDot(const FrameGraph& graph, const CompiledGraph& compiled, const std::vector<std::string>& passNotes) {
+    std::string dot =
+        "digraph frame {\n  rankdir=LR; node [fontname=\"sans-serif\", fontsize=10]; edge [fontname=\"sans-serif\", fontsize=8];\n";
+    for (uint32_t i = 0; i < compiled.passes.size(); ++i) {
+        const std::string note = i < passNotes.size() && !passNotes[i].empty() ? "\\n" + passNotes[i] : "";
+        dot += fmt::format("  p{} [shape=box, style=\"rounded,filled\", fillcolor=\"#ffe9a8\", label=\"{}{}\"];\n", i,
+                           graph.passes()[compiled.passes[i].pass].name, note);
+    }
+    for (uint32_t r = 0; r < graph.resources().size(); ++r) {
+        if (!compiled.used[r]) continue;
+        const Resource& resource = graph.resources()[r];
+        const std::string what =
+            resource.isImage() ? fmt::format("{} {}x{}", vk::to_string(resource.image.format), resource.image.extent.width,
+                                             resource.image.extent.height)
+                               : std::string("buffer");
+        dot += fmt::format("  r{} [shape=box, label=\"{}\\n{}\\n{:.2f} MiB\"];\n", r, resource.name, what,
+                           double(resource.bytes()) / (1 << 20));
+    }
+    for (uint32_t i = 0; i < compiled.passes.size(); ++i)
+        for (const Use& use : graph.passes()[compiled.passes[i].pass].uses) {
+            const AccessInfo& info = infoOf(use.access);
+            dot += info.writes ? fmt::format("  p{} -> r{} [label=\"{}\"];\n", i, use.resource, info.name)
+                               : fmt::format("  r{} -> p{} [label=\"{}\"];\n", use.resource, i, info.name);
+        }
+    return dot + "}\n";
+}
+
+}  // namespace luciole::frame

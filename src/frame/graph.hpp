@@ -1,0 +1,130 @@
+#pragma once
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/access.hpp"
+
+/// The frame graph. Passes declare what they read and write; which passes run, their barriers, layouts, descriptors,
+/// attachments, debug labels and timers follow from that. Declaring and compiling need no device.
+namespace luciole::frame {
+
+class PassContext;
+
+struct ImageId {
+    uint32_t index = ~0u;
+};
+struct BufferId {
+    uint32_t index = ~0u;
+};
+
+struct ImageDesc {
+    vk::Format format = vk::Format::eUndefined;
+    vk::Extent2D extent;
+};
+
+/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer.
+struct Resource {
+    std::string name;
+    ImageDesc image;
+    uint64_t bufferBytes = 0;
+    bool isImage() const { return bufferBytes == 0; }
+    uint64_t bytes() const;
+};
+
+inline constexpr uint32_t kNoBinding = ~0u;
+
+/// One access of one pass. `binding`: the slot in the pass's descriptor set (see pass_context.hpp), if it is a shader's.
+struct Use {
+    uint32_t resource;
+    Access access;
+    uint32_t binding = kNoBinding;
+    std::optional<vk::ClearValue> clear;
+};
+
+struct Pass {
+    std::string name;
+    std::vector<Use> uses;
+    std::function<void(PassContext&)> record;
+};
+
+class FrameGraph;
+
+/// Fluent declaration of one pass. Attachments get their locations in the order of the calls.
+class PassBuilder {
+public:
+    PassBuilder& read(ImageId image, Access access, uint32_t binding = kNoBinding);
+    PassBuilder& read(BufferId buffer, Access access, uint32_t binding = kNoBinding);
+    PassBuilder& write(ImageId image, Access access, uint32_t binding = kNoBinding);
+    PassBuilder& write(BufferId buffer, Access access, uint32_t binding = kNoBinding);
+    PassBuilder& clear(ImageId image, Access access, vk::ClearValue value);  ///< an attachment that starts at `value`
+    void record(std::function<void(PassContext&)> record);
+
+private:
+    friend class FrameGraph;
+    PassBuilder(FrameGraph& graph, uint32_t pass) : graph_(graph), pass_(pass) {}
+    PassBuilder& use(uint32_t resource, Access access, uint32_t binding, bool writes, std::optional<vk::ClearValue> clear = {});
+    FrameGraph& graph_;
+    uint32_t pass_;
+};
+
+/// A dependency between two accesses to one resource, recorded before pass `beforePass` of the compiled order.
+struct Barrier {
+    uint32_t resource;
+    vk::PipelineStageFlags2 srcStages, dstStages;
+    vk::AccessFlags2 srcAccess, dstAccess;
+    vk::ImageLayout oldLayout, newLayout;  ///< images only
+};
+
+struct CompiledPass {
+    uint32_t pass;                  ///< index into FrameGraph::passes()
+    std::vector<Barrier> barriers;  ///< before it
+};
+
+struct CompiledGraph {
+    std::vector<CompiledPass> passes;  ///< in declaration order, those that matter
+    std::vector<Barrier> finalBarriers;  ///< after the last pass: outputs to the host
+    std::vector<bool> used;              ///< per resource
+};
+
+class FrameGraph {
+public:
+    ImageId createImage(std::string name, ImageDesc desc);
+    BufferId createBuffer(std::string name, uint64_t bytes);
+    PassBuilder addPass(std::string name);
+
+    /// Marks a result that the host reads after the frame; passes that lead to no result are dropped.
+    void output(BufferId buffer);
+
+    /// Drops, orders and synchronises.
+    /// \throws std::logic_error naming the pass and the resource: read before anything wrote it, one pass using a
+    ///         resource in two layouts, a written access declared as read or the reverse, a hazard left (see hazards.hpp)
+    CompiledGraph compile() const;
+
+    const std::vector<Pass>& passes() const { return passes_; }
+    const std::vector<Resource>& resources() const { return resources_; }
+    bool isOutput(uint32_t resource) const;
+
+private:
+    friend class PassBuilder;
+    std::vector<Resource> resources_;
+    std::vector<Pass> passes_;
+    std::vector<uint32_t> outputs_;
+};
+
+/// The uses of one resource in one pass, as one.
+struct CombinedUse {
+    vk::PipelineStageFlags2 stages;
+    vk::AccessFlags2 access;
+    vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+    bool writes = false;
+    bool overwrites = false;  ///< what was there before does not matter
+};
+std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass, uint32_t resource);
+
+/// The compiled frame in Graphviz's language. \param passNotes per compiled pass, may be empty: text under its name
+std::string toDot(const FrameGraph& graph, const CompiledGraph& compiled, const std::vector<std::string>& passNotes = {});
+
+}  // namespace luciole::frame

@@ -1,0 +1,29 @@
+// Descriptor sets and bindings, as Pipelines lays them out. Read by both compilers.
+#ifndef LUCIOLE_BINDINGS_SHARED_H
+#define LUCIOLE_BINDINGS_SHARED_H
+#include "render/shaders/shared.h"
+SHARED_BEGIN
+const uint kFrameSet = 0u;
+const uint kFrameView = 0u;       // uniform buffer: ViewConstants
+const uint kFrameObjects = 1u;    // storage buffers from here ...
+const uint kFrameMaterials = 2u;
+const uint kFrameSurfaces = 3u;
+const uint kFrameLights = 4u;
+const uint kFrameLinks = 5u;
+const uint kFrameFunctions = 6u;  // sampled image: the function table
+const uint kFrameBindings = 7u;
+
+const uint kPassSet = 1u;
+const uint kPassSampled = 0u;     // 8 sampled images
+const uint kPassSampledCount = 8u;
+const uint kPassStorageImage = 8u;    // 4 storage images
+const uint kPassStorageImageCount = 4u;
+const uint kPassStorageBuffer = 12u;  // 6 storage buffers
+const uint kPassStorageBufferCount = 6u;
+
+const uint kMaterialSet = 2u;     // 5 sampled images
+const uint kMaterialTextures = 5u;
+
+const uint kPushBytes = 128u;
+SHARED_END
+#endif

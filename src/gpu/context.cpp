@@ -1,0 +1,252 @@
+#include "gpu/context.hpp"
+
+#include <luciole/error.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+namespace luciole::gpu {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr uint64_t kWaitNanoseconds = 60ull * 1'000'000'000;
+
+vk::raii::Context makeLoader() {
+    try {
+        return vk::raii::Context();
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::device, fmt::format("device: expected the Vulkan loader (libvulkan), found none ({})", error.what()));
+    }
+}
+
+/// An instance of Vulkan 1.3, or nothing where there is no loader or no driver at all.
+struct InstanceParts {
+    vk::raii::Instance instance = nullptr;
+    bool labels = false;
+};
+
+InstanceParts makeInstance(const vk::raii::Context& loader, bool validation) {
+    const vk::ApplicationInfo application{
+        .pApplicationName = "luciole", .pEngineName = "luciole", .apiVersion = VK_API_VERSION_1_3};
+    std::vector<const char*> layers, extensions;
+    const auto available = loader.enumerateInstanceExtensionProperties();
+    const bool labels = std::ranges::any_of(available, [](const auto& extension) {
+        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
+    });
+    if (labels) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+
+    const vk::ValidationFeatureEnableEXT synchronization = vk::ValidationFeatureEnableEXT::eSynchronizationValidation;
+    const vk::ValidationFeaturesEXT features{.enabledValidationFeatureCount = 1,
+                                             .pEnabledValidationFeatures = &synchronization};
+    vk::InstanceCreateInfo info{.pApplicationInfo = &application};
+    if (validation) {
+        const auto known = loader.enumerateInstanceLayerProperties();
+        if (std::ranges::none_of(known, [](const auto& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; }))
+            throw Error(ErrorKind::device,
+                        fmt::format("validation: expected the layer {}, found none (Debian: vulkan-validationlayers)",
+                                    kValidationLayer));
+        layers.push_back(kValidationLayer);
+        info.pNext = &features;
+    }
+    info.enabledLayerCount = uint32_t(layers.size());
+    info.ppEnabledLayerNames = layers.data();
+    info.enabledExtensionCount = uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    return {vk::raii::Instance(loader, info), labels};
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL forwardMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    auto& onMessage = *static_cast<std::function<void(std::string_view)>*>(user);
+    if (onMessage && data->pMessage) onMessage(data->pMessage);
+    return VK_FALSE;
+}
+
+std::optional<uint32_t> graphicsQueueFamily(const vk::raii::PhysicalDevice& device) {
+    const auto families = device.getQueueFamilyProperties();
+    for (uint32_t i = 0; i < families.size(); ++i) {
+        const auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+        if ((families[i].queueFlags & wanted) == wanted) return i;
+    }
+    return std::nullopt;
+}
+
+std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
+    const auto properties = device.getProperties();
+    if (properties.apiVersion < VK_API_VERSION_1_3)
+        return fmt::format("expected Vulkan 1.3, found {}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                           VK_API_VERSION_MINOR(properties.apiVersion));
+    const auto chain = device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features,
+                                           vk::PhysicalDeviceVulkan13Features>();
+    const auto& v12 = chain.get<vk::PhysicalDeviceVulkan12Features>();
+    const auto& v13 = chain.get<vk::PhysicalDeviceVulkan13Features>();
+    if (!v12.scalarBlockLayout) return "lacks the feature scalarBlockLayout";
+    if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
+    if (!v13.synchronization2) return "lacks the feature synchronization2";
+    if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
+    const auto blendable = vk::FormatFeatureFlagBits::eColorAttachmentBlend;
+    for (const auto format : {vk::Format::eR32G32B32A32Sfloat, vk::Format::eR16G16B16A16Sfloat})
+        if (!(device.getFormatProperties(format).optimalTilingFeatures & blendable))
+            return fmt::format("can't blend into {}", vk::to_string(format));
+    const auto color = vk::FormatFeatureFlagBits::eColorAttachment;
+    for (const auto format : {vk::Format::eR16G16B16A16Unorm, vk::Format::eR16Unorm})
+        if (!(device.getFormatProperties(format).optimalTilingFeatures & color))
+            return fmt::format("can't render into {}", vk::to_string(format));
+    return {};
+}
+
+DeviceInfo describe(const vk::raii::PhysicalDevice& device) {
+    const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+    const auto& properties = chain.get<vk::PhysicalDeviceProperties2>().properties;
+    const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+    DeviceInfo info;
+    info.name = properties.deviceName.data();
+    info.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+    info.apiVersion = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(properties.apiVersion),
+                                  VK_API_VERSION_MINOR(properties.apiVersion), VK_API_VERSION_PATCH(properties.apiVersion));
+    info.software = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+    info.whyUnusable = whyUnusable(device);
+    info.usable = info.whyUnusable.empty();
+    return info;
+}
+
+/// Lower is better: real GPUs before the software driver.
+int rank(const vk::raii::PhysicalDevice& device) {
+    switch (device.getProperties().deviceType) {
+        case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
+        case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
+        case vk::PhysicalDeviceType::eVirtualGpu: return 2;
+        default: return 3;
+    }
+}
+
+bool matches(const std::string& wanted, size_t index, const DeviceInfo& info) {
+    size_t number = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+    if (error == std::errc() && end == wanted.data() + wanted.size()) return number == index;
+    return info.name.find(wanted) != std::string::npos;
+}
+
+vk::raii::PhysicalDevice pick(const vk::raii::Instance& instance, const std::string& wanted, DeviceInfo& chosen) {
+    const auto devices = instance.enumeratePhysicalDevices();
+    std::string found;
+    std::optional<size_t> best;
+    for (size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo info = describe(devices[i]);
+        found += fmt::format("\n  {}: {} ({}){}", i, info.name, info.driver, info.usable ? "" : ": " + info.whyUnusable);
+        if (!info.usable || (!wanted.empty() && !matches(wanted, i, info))) continue;
+        if (!best || rank(devices[i]) < rank(devices[*best])) best = i, chosen = info;
+    }
+    if (!best)
+        throw Error(ErrorKind::device,
+                    fmt::format("device: expected a usable Vulkan 1.3 device{}, found {}",
+                                wanted.empty() ? "" : fmt::format(" matching \"{}\"", wanted),
+                                found.empty() ? "none (Debian's software driver: mesa-vulkan-drivers)" : found));
+    return devices[*best];
+}
+
+vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily) {
+    const float priority = 1;
+    const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queueFamily, .queueCount = 1, .pQueuePriorities = &priority};
+    vk::PhysicalDeviceVulkan13Features v13{.synchronization2 = true, .dynamicRendering = true};
+    vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true};
+    const vk::DeviceCreateInfo info{.pNext = &v12, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    return vk::raii::Device(physical, info);
+}
+
+}  // namespace
+
+Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMessage_(options.onMessage) {
+    try {
+        InstanceParts parts = makeInstance(loader_, options.validation);
+        instance_ = std::move(parts.instance);
+        labels_ = parts.labels;
+    } catch (const vk::SystemError& error) {
+        throw Error(ErrorKind::device, fmt::format("device: expected a Vulkan driver, found none ({})", error.what()));
+    }
+    if (options.validation && labels_) {
+        using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+        messenger_ = vk::raii::DebugUtilsMessengerEXT(
+            instance_, {.messageSeverity = Severity::eWarning | Severity::eError,
+                        .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
+                        .pfnUserCallback = forwardMessage,
+                        .pUserData = &onMessage_});
+    }
+    physical_ = pick(instance_, options.device, info_);
+    const uint32_t queueFamily = *graphicsQueueFamily(physical_);
+    device_ = makeDevice(physical_, queueFamily);
+    queue_ = device_.getQueue(queueFamily, 0);
+    commandPool_ = vk::raii::CommandPool(
+        device_, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queueFamily});
+    memory_ = physical_.getMemoryProperties();
+    limits_ = physical_.getProperties().limits;
+}
+
+Context::Allocation& Context::Allocation::operator=(Allocation&& other) noexcept {
+    std::swap(context_, other.context_);
+    std::swap(memory_, other.memory_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+}
+
+Context::Allocation::~Allocation() {
+    if (context_) context_->allocatedBytes_ -= bytes_;
+}
+
+Context::Allocation Context::allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const {
+    for (uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+        const bool allowed = requirements.memoryTypeBits & (1u << type);
+        if (!allowed || (memory_.memoryTypes[type].propertyFlags & wanted) != wanted) continue;
+        try {
+            vk::raii::DeviceMemory memory(device_, {.allocationSize = requirements.size, .memoryTypeIndex = type});
+            allocatedBytes_ += requirements.size;
+            peakBytes_ = std::max(peakBytes_, allocatedBytes_);
+            return Allocation(*this, std::move(memory), requirements.size);
+        } catch (const vk::OutOfDeviceMemoryError&) {  // another type may have room
+        } catch (const vk::OutOfHostMemoryError&) {
+        }
+    }
+    throw Error(ErrorKind::deviceLost, fmt::format("{}: out of device memory: {} bytes more wanted, {} in use", info_.name,
+                                                   requirements.size, allocatedBytes_));
+}
+
+void Context::submitAndWait(const vk::raii::CommandBuffer& commands) const {
+    const vk::raii::Fence fence(device_, vk::FenceCreateInfo{});
+    const vk::CommandBufferSubmitInfo buffer{.commandBuffer = *commands};
+    queue_.submit2(vk::SubmitInfo2{.commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer}, *fence);
+    if (device_.waitForFences(*fence, true, kWaitNanoseconds) != vk::Result::eSuccess) {
+        device_.waitIdle();  // the command buffer must not be freed while it may still run
+        throw Error(ErrorKind::deviceLost, fmt::format("{}: no answer for {} s", info_.name, kWaitNanoseconds / 1'000'000'000));
+    }
+}
+
+void Context::runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+    const auto buffers =
+        vk::raii::CommandBuffers(device_, {.commandPool = *commandPool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1});
+    const auto& commands = buffers.front();
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(commands);
+    commands.end();
+    submitAndWait(commands);
+}
+
+}  // namespace luciole::gpu
+
+namespace luciole {
+
+std::vector<DeviceInfo> listDevices() {
+    std::vector<DeviceInfo> infos;
+    try {
+        const vk::raii::Context loader;
+        const auto parts = gpu::makeInstance(loader, false);
+        for (const auto& device : parts.instance.enumeratePhysicalDevices()) infos.push_back(gpu::describe(device));
+    } catch (const std::exception&) {
+        // no loader or no driver: no devices
+    }
+    return infos;
+}
+
+}  // namespace luciole

@@ -1,0 +1,85 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <luciole/renderer.hpp>
+
+#include "gpu/vulkan.hpp"
+
+namespace luciole::gpu {
+
+/// Instance, device and its one queue, plus an account of the device memory in use. Comes up without a window.
+class Context {
+public:
+    /// \throws Error(device) naming each device and why it can't be used
+    explicit Context(const RendererOptions& options);
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    const DeviceInfo& info() const { return info_; }
+    const vk::PhysicalDeviceLimits& limits() const { return limits_; }
+    const vk::raii::Device& device() const { return device_; }
+    const vk::raii::Queue& queue() const { return queue_; }
+    const vk::raii::CommandPool& commandPool() const { return commandPool_; }
+    bool labels() const { return labels_; }
+
+    /// Allocates memory for `requirements` with at least `wanted`; counts it until the Allocation dies.
+    /// \throws Error(deviceLost) if the device has no such memory left
+    class Allocation {
+    public:
+        Allocation() = default;
+        Allocation(const Context& context, vk::raii::DeviceMemory memory, uint64_t bytes)
+            : context_(&context), memory_(std::move(memory)), bytes_(bytes) {}
+        Allocation(Allocation&& other) noexcept { *this = std::move(other); }
+        Allocation& operator=(Allocation&& other) noexcept;
+        ~Allocation();
+        vk::DeviceMemory operator*() const { return *memory_; }
+        void* map() const { return memory_.mapMemory(0, VK_WHOLE_SIZE); }
+
+    private:
+        const Context* context_ = nullptr;
+        vk::raii::DeviceMemory memory_ = nullptr;
+        uint64_t bytes_ = 0;
+    };
+    Allocation allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const;
+
+    uint64_t allocatedBytes() const { return allocatedBytes_; }
+    uint64_t peakBytes() const { return peakBytes_; }
+    void resetPeak() const { peakBytes_ = allocatedBytes_; }
+
+    /// Gives a Vulkan object the name that validation messages and debuggers show.
+    template <typename Handle>
+    void name(Handle handle, const std::string& name) const {
+        if (!labels_) return;
+        device_.setDebugUtilsObjectNameEXT({.objectType = Handle::objectType,
+                                            .objectHandle = reinterpret_cast<uint64_t>(static_cast<typename Handle::CType>(handle)),
+                                            .pObjectName = name.c_str()});
+    }
+
+    /// Records with `record`, submits, and waits.
+    void runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
+
+    /// Submits `commands` and waits. \throws Error(deviceLost) after a minute without an answer
+    void submitAndWait(const vk::raii::CommandBuffer& commands) const;
+
+private:
+    vk::raii::Context loader_;
+    vk::raii::Instance instance_ = nullptr;
+    std::function<void(std::string_view)> onMessage_;  // outlives the messenger that calls it
+    vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
+    vk::raii::PhysicalDevice physical_ = nullptr;
+    vk::raii::Device device_ = nullptr;
+    vk::raii::Queue queue_ = nullptr;
+    vk::raii::CommandPool commandPool_ = nullptr;
+    vk::PhysicalDeviceMemoryProperties memory_;
+    vk::PhysicalDeviceLimits limits_;
+    DeviceInfo info_;
+    bool labels_ = false;
+    mutable uint64_t allocatedBytes_ = 0;
+    mutable uint64_t peakBytes_ = 0;
+};
+
+}  // namespace luciole::gpu

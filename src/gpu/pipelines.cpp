@@ -1,0 +1,158 @@
+#include "gpu/pipelines.hpp"
+
+#include <luciole/scene.hpp>
+
+#include "gpu/bindings.shared.h"
+
+namespace luciole::gpu {
+namespace {
+
+using Type = vk::DescriptorType;
+const auto kAllStages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
+
+void add(std::vector<vk::DescriptorSetLayoutBinding>& bindings, uint32_t first, uint32_t count, Type type) {
+    for (uint32_t i = 0; i < count; ++i)
+        bindings.push_back({.binding = first + i, .descriptorType = type, .descriptorCount = 1, .stageFlags = kAllStages});
+}
+
+vk::raii::DescriptorSetLayout makeLayout(const Context& context, const std::vector<vk::DescriptorSetLayoutBinding>& bindings) {
+    return {context.device(), {.bindingCount = uint32_t(bindings.size()), .pBindings = bindings.data()}};
+}
+
+std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context) {
+    using namespace shared;
+    std::vector<vk::DescriptorSetLayoutBinding> frame, pass, material;
+    add(frame, kFrameView, 1, Type::eUniformBuffer);
+    add(frame, kFrameObjects, kFrameFunctions - kFrameObjects, Type::eStorageBuffer);
+    add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
+    add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
+    add(pass, kPassStorageImage, kPassStorageImageCount, Type::eStorageImage);
+    add(pass, kPassStorageBuffer, kPassStorageBufferCount, Type::eStorageBuffer);
+    add(material, 0, kMaterialTextures, Type::eCombinedImageSampler);
+    std::vector<vk::raii::DescriptorSetLayout> layouts;
+    for (const auto* bindings : {&frame, &pass, &material}) layouts.push_back(makeLayout(context, *bindings));
+    return layouts;
+}
+
+/// Specialization data: constant i has ID i and 4 bytes.
+struct Specialization {
+    explicit Specialization(const std::vector<uint32_t>& constants) {
+        for (uint32_t i = 0; i < constants.size(); ++i) entries.push_back({i, i * 4u, 4});
+        info = {.mapEntryCount = uint32_t(entries.size()),
+                .pMapEntries = entries.data(),
+                .dataSize = constants.size() * 4,
+                .pData = constants.data()};
+    }
+    std::vector<vk::SpecializationMapEntry> entries;
+    vk::SpecializationInfo info;
+};
+
+static_assert(sizeof(Vertex) == 72);
+constexpr vk::VertexInputBindingDescription kMeshBinding{0, sizeof(Vertex), vk::VertexInputRate::eVertex};
+constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
+    {0, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, position)},
+    {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)},
+    {2, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Vertex, tangent)},
+    {3, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv0)},
+    {4, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv1)},
+    {5, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Vertex, color)},
+};
+
+}  // namespace
+
+Pipelines::Pipelines(const Context& context, ShaderLibrary shaders)
+    : context_(context), shaders_(shaders), setLayouts_(makeSetLayouts(context)) {
+    std::vector<vk::DescriptorSetLayout> handles;
+    for (const auto& layout : setLayouts_) handles.push_back(*layout);
+    const vk::PushConstantRange push{kAllStages, 0, shared::kPushBytes};
+    layout_ = vk::raii::PipelineLayout(context.device(), {.setLayoutCount = uint32_t(handles.size()),
+                                                          .pSetLayouts = handles.data(),
+                                                          .pushConstantRangeCount = 1,
+                                                          .pPushConstantRanges = &push});
+}
+
+vk::Pipeline Pipelines::get(const PipelineKey& key) {
+    auto found = pipelines_.find(key);
+    if (found == pipelines_.end()) {
+        found = pipelines_.emplace(key, key.vertex.empty() ? makeCompute(key) : makeGraphics(key)).first;
+        context_.name(*found->second, key.main.empty() ? key.vertex : key.main);
+    }
+    return *found->second;
+}
+
+vk::raii::ShaderModule Pipelines::module(const std::string& name) const {
+    const auto code = shaders_(name);
+    return {context_.device(), {.codeSize = code.size_bytes(), .pCode = code.data()}};
+}
+
+vk::raii::Pipeline Pipelines::makeCompute(const PipelineKey& key) const {
+    const Specialization constants(key.constants);
+    const auto shader = module(key.main);
+    return {context_.device(), nullptr,
+            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                    .module = *shader,
+                                                    .pName = "main",
+                                                    .pSpecializationInfo = &constants.info},
+                                          .layout = *layout_}};
+}
+
+vk::raii::Pipeline Pipelines::makeGraphics(const PipelineKey& key) const {
+    const Specialization constants(key.constants);
+    std::vector<vk::raii::ShaderModule> modules;
+    std::vector<vk::PipelineShaderStageCreateInfo> stages;
+    const auto addStage = [&](const std::string& name, vk::ShaderStageFlagBits stage) {
+        if (name.empty()) return;
+        modules.push_back(module(name));
+        stages.push_back({.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &constants.info});
+    };
+    addStage(key.vertex, vk::ShaderStageFlagBits::eVertex);
+    addStage(key.main, vk::ShaderStageFlagBits::eFragment);
+
+    vk::PipelineVertexInputStateCreateInfo vertices;
+    if (key.meshVertices)
+        vertices = {.vertexBindingDescriptionCount = 1,
+                    .pVertexBindingDescriptions = &kMeshBinding,
+                    .vertexAttributeDescriptionCount = uint32_t(std::size(kMeshAttributes)),
+                    .pVertexAttributeDescriptions = kMeshAttributes};
+    const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
+    const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
+    const vk::PipelineRasterizationStateCreateInfo rasterization{.polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};
+    const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
+    const vk::PipelineDepthStencilStateCreateInfo depth{};
+    using Channel = vk::ColorComponentFlagBits;
+    const vk::PipelineColorBlendAttachmentState blend{
+        .blendEnable = key.additive,
+        .srcColorBlendFactor = vk::BlendFactor::eOne,
+        .dstColorBlendFactor = vk::BlendFactor::eOne,
+        .colorBlendOp = vk::BlendOp::eAdd,
+        .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+        .dstAlphaBlendFactor = vk::BlendFactor::eOne,
+        .alphaBlendOp = vk::BlendOp::eAdd,
+        .colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA};
+    const std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blend);
+    const vk::PipelineColorBlendStateCreateInfo blending{.attachmentCount = uint32_t(blends.size()), .pAttachments = blends.data()};
+    const vk::DynamicState dynamics[] = {vk::DynamicState::eViewport,        vk::DynamicState::eScissor,
+                                         vk::DynamicState::eCullMode,        vk::DynamicState::eFrontFace,
+                                         vk::DynamicState::eDepthTestEnable, vk::DynamicState::eDepthWriteEnable,
+                                         vk::DynamicState::eDepthCompareOp};
+    const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = uint32_t(std::size(dynamics)), .pDynamicStates = dynamics};
+    const vk::PipelineRenderingCreateInfo formats{.colorAttachmentCount = uint32_t(key.colors.size()),
+                                                  .pColorAttachmentFormats = key.colors.data(),
+                                                  .depthAttachmentFormat = key.depth};
+    return {context_.device(), nullptr,
+            vk::GraphicsPipelineCreateInfo{.pNext = &formats,
+                                           .stageCount = uint32_t(stages.size()),
+                                           .pStages = stages.data(),
+                                           .pVertexInputState = &vertices,
+                                           .pInputAssemblyState = &assembly,
+                                           .pViewportState = &viewport,
+                                           .pRasterizationState = &rasterization,
+                                           .pMultisampleState = &multisample,
+                                           .pDepthStencilState = &depth,
+                                           .pColorBlendState = &blending,
+                                           .pDynamicState = &dynamic,
+                                           .layout = *layout_}};
+}
+
+}  // namespace luciole::gpu

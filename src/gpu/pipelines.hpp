@@ -1,0 +1,54 @@
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/context.hpp"
+
+namespace luciole::gpu {
+
+/// Finds SPIR-V by name; made by luciole_shaders (cmake/shaders.cmake).
+using ShaderLibrary = std::span<const uint32_t> (*)(std::string_view name);
+
+/// What tells one pipeline from another. Cull mode, front face and depth state are dynamic and not in here.
+struct PipelineKey {
+    std::string vertex;                 ///< empty for compute
+    std::string main;                   ///< fragment or compute shader; may be empty for a depth-only pass
+    bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
+    bool additive = false;              ///< colour = source + destination
+    std::vector<uint32_t> constants;    ///< specialization constants 0, 1, ...
+    std::vector<vk::Format> colors;
+    vk::Format depth = vk::Format::eUndefined;
+    auto operator<=>(const PipelineKey&) const = default;
+};
+
+/// Pipelines by key, made when first asked for. All share one layout, so that sets stay bound across pipelines:
+///   set 0  the frame: tables that every pass may read (kFrame* below)
+///   set 1  the pass: filled by the frame graph from what the pass declares
+///   set 2  the material's textures, geometry passes only
+/// and 128 bytes of push constants, the least that Vulkan guarantees.
+class Pipelines {
+public:
+    Pipelines(const Context& context, ShaderLibrary shaders);
+    vk::Pipeline get(const PipelineKey& key);
+    vk::PipelineLayout layout() const { return *layout_; }
+    vk::DescriptorSetLayout frameSetLayout() const { return *setLayouts_[0]; }
+    vk::DescriptorSetLayout passSetLayout() const { return *setLayouts_[1]; }
+    vk::DescriptorSetLayout materialSetLayout() const { return *setLayouts_[2]; }
+    size_t size() const { return pipelines_.size(); }
+
+private:
+    vk::raii::Pipeline makeGraphics(const PipelineKey& key) const;
+    vk::raii::Pipeline makeCompute(const PipelineKey& key) const;
+    vk::raii::ShaderModule module(const std::string& name) const;
+
+    const Context& context_;
+    ShaderLibrary shaders_;
+    std::vector<vk::raii::DescriptorSetLayout> setLayouts_;
+    vk::raii::PipelineLayout layout_ = nullptr;
+    std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+};
+
+}  // namespace luciole::gpu

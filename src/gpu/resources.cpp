@@ -1,0 +1,138 @@
+#include "gpu/resources.hpp"
+
+#include <fmt/format.h>
+
+#include <luciole/error.hpp>
+
+#include <algorithm>
+
+namespace luciole::gpu {
+
+namespace {
+
+vk::MemoryPropertyFlags propertiesOf(Residence residence) {
+    using Property = vk::MemoryPropertyFlagBits;
+    switch (residence) {
+        case Residence::hostVisible: return Property::eHostVisible | Property::eHostCoherent;
+        case Residence::hostCached: return Property::eHostVisible | Property::eHostCoherent | Property::eHostCached;
+        default: return Property::eDeviceLocal;
+    }
+}
+
+}  // namespace
+
+Buffer makeBuffer(const Context& context, const std::string& name, uint64_t bytes, vk::BufferUsageFlags usage,
+                  Residence residence) {
+    bytes = std::max<uint64_t>(bytes, 16);
+    if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && bytes > context.limits().maxStorageBufferRange)
+        throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} bytes (the device's largest storage buffer), got {}",
+                                                  name, context.limits().maxStorageBufferRange, bytes));
+    Buffer buffer;
+    buffer.bytes = bytes;
+    buffer.handle = vk::raii::Buffer(context.device(), {.size = bytes, .usage = usage});
+    buffer.memory = context.allocate(buffer.handle.getMemoryRequirements(), propertiesOf(residence));
+    buffer.handle.bindMemory(*buffer.memory, 0);
+    context.name(*buffer.handle, name);
+    return buffer;
+}
+
+vk::ImageAspectFlags aspectOf(vk::Format format) {
+    return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
+}
+
+uint32_t bytesPerTexel(vk::Format format) {
+    switch (format) {
+        case vk::Format::eR16Unorm: return 2;
+        case vk::Format::eD32Sfloat:
+        case vk::Format::eR8G8B8A8Unorm:
+        case vk::Format::eR8G8B8A8Srgb: return 4;
+        case vk::Format::eR16G16B16A16Unorm:
+        case vk::Format::eR16G16B16A16Sfloat:
+        case vk::Format::eR32G32Sfloat: return 8;
+        case vk::Format::eR32G32B32A32Sfloat: return 16;
+        default: throw std::logic_error(fmt::format("bytesPerTexel: {} is not in the table", vk::to_string(format)));
+    }
+}
+
+Image makeImage(const Context& context, const std::string& name, const ImageRequest& request) {
+    const uint32_t limit = context.limits().maxImageDimension2D;
+    if (request.extent.width > limit || request.extent.height > limit)
+        throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} x {} texels (the device's limit), got {} x {}", name,
+                                                  limit, limit, request.extent.width, request.extent.height));
+    Image image;
+    image.format = request.format;
+    image.extent = request.extent;
+    image.mipLevels = request.mipLevels;
+    image.handle = vk::raii::Image(context.device(), {.imageType = vk::ImageType::e2D,
+                                                      .format = request.format,
+                                                      .extent = {request.extent.width, request.extent.height, 1},
+                                                      .mipLevels = request.mipLevels,
+                                                      .arrayLayers = 1,
+                                                      .samples = vk::SampleCountFlagBits::e1,
+                                                      .tiling = vk::ImageTiling::eOptimal,
+                                                      .usage = request.usage});
+    const auto requirements = image.handle.getMemoryRequirements();
+    image.bytes = requirements.size;
+    image.memory = context.allocate(requirements, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    image.handle.bindMemory(*image.memory, 0);
+    image.view = vk::raii::ImageView(
+        context.device(), {.image = *image.handle,
+                           .viewType = vk::ImageViewType::e2D,
+                           .format = request.format,
+                           .subresourceRange = {aspectOf(request.format), 0, request.mipLevels, 0, 1}});
+    context.name(*image.handle, name);
+    context.name(*image.view, name);
+    return image;
+}
+
+Buffer uploadBuffer(const Context& context, const std::string& name, std::span<const std::byte> data,
+                    vk::BufferUsageFlags usage) {
+    Buffer target = makeBuffer(context, name, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst);
+    if (data.empty()) return target;
+    MappedBuffer staging(context, name + " staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    staging.write(data);
+    context.runOnce([&](const vk::raii::CommandBuffer& commands) {
+        commands.copyBuffer(staging.handle(), *target.handle, vk::BufferCopy{.size = data.size()});
+    });
+    return target;
+}
+
+Image uploadImage(const Context& context, const std::string& name, vk::Format format, vk::Extent2D extent,
+                  std::span<const std::span<const std::byte>> levels) {
+    const auto levelCount = uint32_t(levels.size());
+    Image image = makeImage(context, name, {.format = format,
+                                            .extent = extent,
+                                            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst,
+                                            .mipLevels = levelCount});
+    uint64_t bytes = 0;
+    for (const auto& level : levels) bytes += level.size();
+    MappedBuffer staging(context, name + " staging", bytes, vk::BufferUsageFlagBits::eTransferSrc);
+    std::vector<vk::BufferImageCopy> copies;
+    uint64_t offset = 0;
+    for (uint32_t level = 0; level < levelCount; ++level) {
+        staging.write(levels[level], offset);
+        copies.push_back({.bufferOffset = offset,
+                          .imageSubresource = {vk::ImageAspectFlagBits::eColor, level, 0, 1},
+                          .imageExtent = {std::max(1u, extent.width >> level), std::max(1u, extent.height >> level), 1}});
+        offset += levels[level].size();
+    }
+    const auto transition = [&](const vk::raii::CommandBuffer& commands, vk::ImageLayout from, vk::ImageLayout to) {
+        const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                              .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                              .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                              .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                              .oldLayout = from,
+                                              .newLayout = to,
+                                              .image = *image.handle,
+                                              .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levelCount, 0, 1}};
+        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+    };
+    context.runOnce([&](const vk::raii::CommandBuffer& commands) {
+        transition(commands, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+        commands.copyBufferToImage(staging.handle(), *image.handle, vk::ImageLayout::eTransferDstOptimal, copies);
+        transition(commands, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
+    });
+    return image;
+}
+
+}  // namespace luciole::gpu

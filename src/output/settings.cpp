@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <luciole/error.hpp>
+#include <luciole/settings.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <type_traits>
+
+namespace luciole {
+namespace {
+
+// The names of the choices, each list in the order of its enum.
+constexpr std::array<std::string_view, 3> kGBufferNames{"calver", "float", "compact"};
+constexpr std::array<std::string_view, 2> kLightBufferNames{"rgba32f", "rgba16f"};
+constexpr std::array<std::string_view, 4> kToneMapNames{"none", "reinhard", "aces", "agx"};
+
+template <auto Member, const auto& Names>
+Setting choice(std::string_view name, std::string_view help) {
+    using Enum = std::remove_cvref_t<decltype(RenderSettings{}.*Member)>;
+    return {.name = name,
+            .help = help,
+            .type = "choice",
+            .choices = {Names.begin(), Names.end()},
+            .get = [](const RenderSettings& settings) { return std::string(Names[size_t(settings.*Member)]); },
+            .set =
+                [](RenderSettings& settings, std::string_view value) {
+                    settings.*Member = Enum(std::find(Names.begin(), Names.end(), value) - Names.begin());
+                }};
+}
+
+template <bool RenderSettings::*Member>
+Setting onOff(std::string_view name, std::string_view help) {
+    return {.name = name,
+            .help = help,
+            .type = "switch",
+            .get = [](const RenderSettings& settings) { return std::string(settings.*Member ? "on" : "off"); },
+            .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = value == "on"; }};
+}
+
+std::optional<float> parseNumber(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    float value = 0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+template <float RenderSettings::*Member>
+Setting number(std::string_view name, std::string_view help, double low, double high) {
+    return {.name = name,
+            .help = help,
+            .type = "number",
+            .low = low,
+            .high = high,
+            .get = [](const RenderSettings& settings) { return fmt::format("{}", settings.*Member); },
+            .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = *parseNumber(value); }};
+}
+
+bool accepts(const Setting& setting, std::string_view value) {
+    if (setting.type == "choice")
+        return std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end();
+    if (setting.type == "switch") return value == "on" || value == "off";
+    if (setting.type == "number") {
+        const std::optional<float> number = parseNumber(value);
+        return number && *number >= setting.low && *number <= setting.high;  // NaN fails
+    }
+    return !value.empty();
+}
+
+std::string expectation(const Setting& setting) {
+    if (setting.type == "choice") return fmt::format("one of {}", fmt::join(setting.choices, ", "));
+    if (setting.type == "switch") return "on or off";
+    if (setting.type == "number") return fmt::format("a number from {} to {}", setting.low, setting.high);
+    return "a name";
+}
+
+const Setting* findSetting(std::string_view name) {
+    const std::span<const Setting> table = settingsTable();
+    const auto row = std::find_if(table.begin(), table.end(), [&](const Setting& s) { return s.name == name; });
+    return row == table.end() ? nullptr : &*row;
+}
+
+/// A JSON value in the words that setSetting takes; empty where its type does not fit the setting.
+std::string textOf(const Setting& setting, const nlohmann::json& value) {
+    if (setting.type == "switch") return value.is_boolean() ? (value.get<bool>() ? "on" : "off") : "";
+    if (setting.type == "number") return value.is_number() ? value.dump() : "";
+    return value.is_string() ? value.get<std::string>() : "";
+}
+
+}  // namespace
+
+std::span<const Setting> settingsTable() {
+    static const std::array kTable{
+        Setting{.name = "lighting",
+                .help = "lighting technique; `luciole techniques` lists them",
+                .type = "name",
+                .get = [](const RenderSettings& settings) { return settings.lighting; },
+                .set = [](RenderSettings& settings, std::string_view value) { settings.lighting = value; }},
+        choice<&RenderSettings::gbuffer, kGBufferNames>("gbuffer", "what the geometry phase stores per pixel, and how"),
+        choice<&RenderSettings::lightBuffer, kLightBufferNames>("light-buffer", "format that the lights are summed in"),
+        onOff<&RenderSettings::depthPrepass>("depth-prepass", "draw depth alone first, so each pixel is shaded once"),
+        number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),
+        choice<&RenderSettings::toneMap, kToneMapNames>("tonemap", "how radiance becomes a picture"),
+        onOff<&RenderSettings::measure>("measure", "time each pass on its own; the frame as a whole gets slower"),
+    };
+    return kTable;
+}
+
+void setSetting(RenderSettings& settings, std::string_view name, std::string_view value) {
+    const Setting* setting = findSetting(name);
+    if (!setting) throw Error(ErrorKind::usage, fmt::format("unknown setting \"{}\"", name));
+    if (!accepts(*setting, value))
+        throw Error(ErrorKind::usage, fmt::format("{}: expected {}, got \"{}\"", name, expectation(*setting), value));
+    setting->set(settings, value);
+}
+
+void applySettingsText(RenderSettings& settings, std::string_view json, const std::string& nameForErrors) {
+    const auto object = nlohmann::json::parse(json, nullptr, false);
+    if (!object.is_object())
+        throw Error(ErrorKind::usage, fmt::format("{}: expected a JSON object of settings", nameForErrors));
+    RenderSettings changed = settings;
+    for (const auto& [key, value] : object.items()) {
+        const Setting* setting = findSetting(key);
+        if (!setting) throw Error(ErrorKind::usage, fmt::format("{}: /{}: unknown setting", nameForErrors, key));
+        const std::string text = textOf(*setting, value);
+        if (!accepts(*setting, text))
+            throw Error(ErrorKind::usage, fmt::format("{}: /{}: expected {}, got {}", nameForErrors, key,
+                                                      expectation(*setting), value.dump()));
+        setting->set(changed, text);
+    }
+    settings = changed;
+}
+
+}  // namespace luciole

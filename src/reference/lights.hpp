@@ -1,0 +1,41 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include <luciole/scene.hpp>
+
+#include "reference/function_table.hpp"
+#include "reference/light_model.hpp"
+
+namespace luciole::reference {
+
+/// A light, made ready for many points.
+class LightSource {
+public:
+    /// \param scene, tables must outlive this object
+    LightSource(const Scene& scene, const FunctionTables& tables, const Light& light);
+
+    /// What arrives at a point in range and in the cone; nothing elsewhere. Links are not looked at.
+    std::optional<Arrival> arrivalAt(dvec3 positionWorld) const;
+
+    bool touches(uint32_t objectId) const;
+    LightContribution contribution() const { return contribution_; }
+    bool infiniteViewer() const { return infiniteViewer_; }
+
+private:
+    double attenuation(double distance) const;
+    double falloff(double cosine) const;
+
+    LightType type_;
+    LightContribution contribution_;
+    bool infiniteViewer_;
+    dvec3 position_, direction_, color_;
+    double range_, rangeSquared_;
+    double cosInner_, cosOuter_;
+    const FunctionTable *attenuation_, *falloff_;  ///< null: glTF's
+    const std::vector<bool>* litObjects_;          ///< null: all
+};
+
+std::vector<LightSource> lightSources(const Scene& scene, const FunctionTables& tables);
+
+}  // namespace luciole::reference

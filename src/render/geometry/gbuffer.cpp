@@ -1,0 +1,34 @@
+#include "render/geometry/gbuffer.hpp"
+
+#include "gpu/bindings.shared.h"
+
+namespace luciole::render {
+
+using frame::Access;
+
+std::array<vk::Format, 4> targetFormats(GBufferLayout layout) {
+    const auto wide = vk::Format::eR16G16B16A16Unorm;
+    switch (layout) {
+        case GBufferLayout::calver: return {wide, wide, wide, wide};
+        case GBufferLayout::floatPosition: return {vk::Format::eR16G16B16A16Sfloat, wide, wide, wide};
+        default: return {vk::Format::eR8G8B8A8Unorm, vk::Format::eR8G8B8A8Unorm, wide, vk::Format::eR16Unorm};
+    }
+}
+
+GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent) {
+    const auto formats = targetFormats(layout);
+    GBuffer gbuffer;
+    for (size_t i = 0; i < formats.size(); ++i)
+        gbuffer.targets[i] = graph.createImage(std::string("gbuffer.") + "abcd"[i], {formats[i], extent});
+    gbuffer.depth = graph.createImage("depth", {kDepthFormat, extent});
+    return gbuffer;
+}
+
+void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer) {
+    for (uint32_t i = 0; i < gbuffer.targets.size(); ++i)
+        pass.read(gbuffer.targets[i], Access::fragmentSampled, shared::kPassSampled + i);
+    pass.read(gbuffer.depth, Access::fragmentSampled, shared::kPassSampled + 4);
+    pass.read(gbuffer.depth, Access::depthTest);
+}
+
+}  // namespace luciole::render

@@ -1,0 +1,83 @@
+// Packing of the three G-buffer layouts (docs/gbuffer.md). Needs kLayout and `view` from frame.glsl.
+//   calver   A RGBA16: position after the perspective divide, specular blend   B RGBA16: normal (oct), roughness, occlusion
+//            C RGBA16: Cs0, material                                           D RGBA16: Cs1, object ID
+//   float    A RGBA16F: position in view space, specular blend; B, C, D as calver
+//   compact  A RGBA8: sqrt Cs0, specular blend   B RGBA8: sqrt Cs1, occlusion
+//            C RGBA16: normal (oct), roughness, object ID   D R16: material    position from depth
+#ifndef LUCIOLE_GBUFFER_GLSL
+#define LUCIOLE_GBUFFER_GLSL
+#include "render/shaders/frame.glsl"
+#include "render/shaders/surface.glsl"
+
+const uint kCalver = 0u;
+const uint kFloatPosition = 1u;
+const uint kCompact = 2u;
+
+struct Texels {
+    vec4 a, b, c, d;
+};
+
+float packIndex(uint index) { return float(index) / 65535.0; }
+uint unpackIndex(float stored) { return uint(stored * 65535.0 + 0.5); }
+
+// Octahedral map of the sphere to [0, 1]^2 (Meyer et al. 2010, "On Floating-Point Normal Vectors").
+vec2 packNormal(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    if (n.z < 0.0) p = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
+    return p * 0.5 + 0.5;
+}
+vec3 unpackNormal(vec2 stored) {
+    const vec2 p = stored * 2.0 - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return normalize(n);
+}
+
+// Calver 2003, "Storing Position": PackPositionForGBuffer. The rasterizer has divided by w and biased x and y already.
+vec3 packPosition(vec4 fragCoord) { return vec3(fragCoord.xy / view.extent, fragCoord.z); }
+// UnPackPositionFromGBuffer.
+vec3 unpackPosition(vec3 stored) {
+    const vec4 p = view.viewFromGBuffer * vec4(stored, 1);
+    return p.xyz / p.w;
+}
+
+// `s.Cs0` and `s.Cs1` already divided by the material's scales.
+Texels packSurface(Surface s, vec4 fragCoord) {
+    const vec2 normal = packNormal(s.N);
+    if (kLayout == kCompact)
+        return Texels(vec4(sqrt(s.Cs0), s.specularBlend), vec4(sqrt(s.Cs1), s.occlusion),
+                      vec4(normal, s.roughness, packIndex(s.objectId)), vec4(packIndex(s.material), 0, 0, 0));
+    const vec3 position = kLayout == kCalver ? packPosition(fragCoord) : s.P;
+    return Texels(vec4(position, s.specularBlend), vec4(normal, s.roughness, s.occlusion), vec4(s.Cs0, packIndex(s.material)),
+                  vec4(s.Cs1, packIndex(s.objectId)));
+}
+
+Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
+    Surface s;
+    if (kLayout == kCompact) {
+        s.P = unpackPosition(vec3(pixelCenter / view.extent, depth));
+        s.N = unpackNormal(t.c.xy);
+        s.Cs0 = t.a.rgb * t.a.rgb;
+        s.Cs1 = t.b.rgb * t.b.rgb;
+        s.specularBlend = t.a.w;
+        s.occlusion = t.b.w;
+        s.roughness = t.c.z;
+        s.objectId = unpackIndex(t.c.w);
+        s.material = unpackIndex(t.d.x);
+    } else {
+        s.P = kLayout == kCalver ? unpackPosition(t.a.xyz) : t.a.xyz;
+        s.N = unpackNormal(t.b.xy);
+        s.specularBlend = t.a.w;
+        s.roughness = t.b.z;
+        s.occlusion = t.b.w;
+        s.Cs0 = t.c.rgb;
+        s.material = unpackIndex(t.c.w);
+        s.Cs1 = t.d.rgb;
+        s.objectId = unpackIndex(t.d.w);
+    }
+    const MaterialConstants m = materials[s.material];
+    s.Cs0 *= m.cs0Scale;
+    s.Cs1 *= m.cs1Scale;
+    return s;
+}
+#endif

@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/shaders/frame.glsl"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv0;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 color;
+
+layout(location = 0) out vec3 positionView;
+layout(location = 1) out vec3 positionObject;
+layout(location = 2) out vec3 normalView;
+layout(location = 3) out vec4 tangentView;
+layout(location = 4) out vec4 uv;
+layout(location = 5) out vec4 colorOut;
+layout(location = 6) flat out uint objectIndex;
+
+invariant gl_Position;  // the depth set-up pass has to give the same depth
+
+void main() {
+    const ObjectConstants object = objects[gl_InstanceIndex];
+    const mat3 viewFromWorld = mat3(view.viewFromWorld);
+    const vec4 p = view.viewFromWorld * (object.worldFromObject * vec4(position, 1));
+    gl_Position = view.clipFromView * p;
+    positionView = p.xyz;
+    positionObject = position;
+    normalView = viewFromWorld * (object.worldNormalFromObject * normal);
+    tangentView = vec4(viewFromWorld * (mat3(object.worldFromObject) * tangent.xyz), tangent.w * object.tangentSign);
+    uv = vec4(uv0, uv1);
+    colorOut = color;
+    objectIndex = gl_InstanceIndex;
+}

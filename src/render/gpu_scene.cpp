@@ -1,0 +1,272 @@
+#include "render/gpu_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "gpu/bindings.shared.h"
+#include "render/geometry/gbuffer.hpp"
+#include "render/tables.hpp"
+#include "scene/mip_chain.hpp"
+
+namespace luciole::render {
+namespace {
+
+using namespace shared;
+using Usage = vk::BufferUsageFlagBits;
+
+/// The textures of a material in the order of kTexture*, and whether each holds sRGB colours.
+struct TextureRole {
+    const TextureUse* use;
+    bool srgb;
+};
+std::array<TextureRole, kTextureSlots> texturesOf(const Material& material) {
+    return {{{&material.baseColorTexture, true},
+             {&material.metallicRoughnessTexture, false},
+             {&material.normalTexture, false},
+             {&material.occlusionTexture, false},
+             {&material.emissiveTexture, true}}};
+}
+
+bool mirrored(const Object& object) { return determinant(dmat3(object.worldFromObject)) < 0; }
+
+vk::SamplerAddressMode addressMode(Wrap wrap) {
+    switch (wrap) {
+        case Wrap::mirroredRepeat: return vk::SamplerAddressMode::eMirroredRepeat;
+        case Wrap::clampToEdge: return vk::SamplerAddressMode::eClampToEdge;
+        default: return vk::SamplerAddressMode::eRepeat;
+    }
+}
+
+vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
+
+vk::raii::Sampler makeSampler(const gpu::Context& context, const Sampler& sampler) {
+    const bool mips = sampler.mipFilter != MipFilter::none;
+    return {context.device(),
+            {.magFilter = filterOf(sampler.magFilter),
+             .minFilter = filterOf(sampler.minFilter),
+             .mipmapMode = sampler.mipFilter == MipFilter::linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest,
+             .addressModeU = addressMode(sampler.wrapU),
+             .addressModeV = addressMode(sampler.wrapV),
+             // 0.25 keeps to level 0 and still tells minification from magnification (VkSamplerCreateInfo, note).
+             .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f}};
+}
+
+gpu::Image uploadTexels(const gpu::Context& context, const Texels& texels, bool srgb) {
+    const auto chain = mipChain(texels, srgb);
+    std::vector<std::span<const std::byte>> levels;
+    for (const Texels& level : chain) levels.push_back(std::as_bytes(std::span(level.rgba)));
+    return gpu::uploadImage(context, texels.name, srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
+                            {texels.width, texels.height}, levels);
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
+    : context_(context), lights_(scene.lights), ambience_(scene.ambience), exposureEv_(scene.exposureEv),
+      functionCount_(uint32_t(scene.functions.size())) {
+    uploadMeshes(scene);
+    uploadObjects(scene);
+    uploadMaterials(scene);
+    uploadTextures(scene);
+    createMaterialSets(scene, pipelines);
+    uploadFunctions(scene);
+    links_ = gpu::uploadBuffer(context_, "link table", linkTable(scene, linkWords_), Usage::eStorageBuffer);
+    view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
+    lightTable_ = gpu::MappedBuffer(context_, "light table", lights_.size() * sizeof(LightConstants), Usage::eStorageBuffer);
+    createFrameSet(pipelines);
+    lightFeatures_ = render::lightFeatures(lights_);
+    for (const Material& material : scene.materials) equations_ |= 1u << uint32_t(material.equation);
+    triangles_ = triangleCount(scene);
+}
+
+void GpuScene::uploadMeshes(const Scene& scene) {
+    std::vector<Vertex> vertices;
+    std::vector<uint32_t> indices;
+    vertices.reserve(std::transform_reduce(scene.meshes.begin(), scene.meshes.end(), size_t(0), std::plus{},
+                                           [](const Mesh& mesh) { return mesh.vertices.size(); }));
+    for (const Mesh& mesh : scene.meshes) {
+        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    vertices_ = gpu::uploadBuffer(context_, "vertices", vertices, Usage::eVertexBuffer);
+    indices_ = gpu::uploadBuffer(context_, "indices", indices, Usage::eIndexBuffer);
+}
+
+void GpuScene::uploadObjects(const Scene& scene) {
+    std::vector<uint32_t> order(scene.objects.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto batchOf = [&](uint32_t i) {
+        const Object& object = scene.objects[i];
+        return std::tuple(object.material, object.mesh, mirrored(object));
+    };
+    std::ranges::stable_sort(order, {}, batchOf);
+    std::vector<ObjectConstants> table;
+    for (const uint32_t i : order) {
+        const auto [material, mesh, flipped] = batchOf(i);
+        const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
+        if (!joins) batches_.push_back({mesh, material, flipped, uint32_t(table.size()), 0});
+        ++batches_.back().objectCount;
+        table.push_back(objectConstants(scene.objects[i]));
+    }
+    objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eStorageBuffer);
+}
+
+void GpuScene::uploadMaterials(const Scene& scene) {
+    std::vector<float> meshColorBound;
+    for (const Mesh& mesh : scene.meshes) {
+        float bound = 1;
+        for (const Vertex& vertex : mesh.vertices) bound = std::max({bound, vertex.color.x, vertex.color.y, vertex.color.z});
+        meshColorBound.push_back(bound);
+    }
+    std::vector<float> colorBound(scene.materials.size(), 1.0f);
+    for (const Object& object : scene.objects)
+        colorBound[object.material] = std::max(colorBound[object.material], meshColorBound[object.mesh]);
+
+    // Row 0 is "no surface": no equation, no light.
+    std::vector<SurfaceConstants> surfaces(1);
+    std::vector<MaterialConstants> materials(1);
+    materials[0].equation = kNoIndex;
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const MaterialTables tables = materialTables(scene.materials[i], colorBound[i]);
+        surfaces.push_back(tables.surface);
+        materials.push_back(tables.material);
+    }
+    surfaces_ = gpu::uploadBuffer(context_, "surfaces", surfaces, Usage::eStorageBuffer);
+    materials_ = gpu::uploadBuffer(context_, "materials", materials, Usage::eStorageBuffer);
+}
+
+void GpuScene::uploadTextures(const Scene& scene) {
+    images_.resize(scene.texels.size());
+    for (const Material& material : scene.materials)
+        for (const TextureRole& role : texturesOf(material)) {
+            if (role.use->texture == kNone) continue;
+            const uint32_t texels = scene.textures[role.use->texture].texels;
+            gpu::Image& image = images_[texels][role.srgb];
+            if (!*image.view) image = uploadTexels(context_, scene.texels[texels], role.srgb);
+        }
+    white_ = uploadTexels(context_, {.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}}, false);
+    for (const Texture& texture : scene.textures) samplers_.push_back(makeSampler(context_, texture.sampler));
+    samplers_.push_back(makeSampler(context_, {}));
+}
+
+void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
+    const auto count = uint32_t(scene.materials.size());
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 1},
+                                            {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects},
+                                            {vk::DescriptorType::eUniformBuffer, 1}};
+    pool_ = vk::raii::DescriptorPool(context_.device(), {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                         .maxSets = count + 1,
+                                                         .poolSizeCount = uint32_t(std::size(sizes)),
+                                                         .pPoolSizes = sizes});
+    if (count == 0) return;
+    const std::vector<vk::DescriptorSetLayout> layouts(count, pipelines.materialSetLayout());
+    materialSets_ = vk::raii::DescriptorSets(
+        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = count, .pSetLayouts = layouts.data()});
+    for (uint32_t i = 0; i < count; ++i) {
+        const Material& material = scene.materials[i];
+        uint32_t present = 0;
+        std::array<vk::DescriptorImageInfo, kTextureSlots> infos;
+        const auto roles = texturesOf(material);
+        for (uint32_t slot = 0; slot < kTextureSlots; ++slot) {
+            const uint32_t texture = roles[slot].use->texture;
+            const bool has = texture != kNone;
+            present |= uint32_t(has) << slot;
+            infos[slot] = {.sampler = *samplers_[has ? texture : samplers_.size() - 1],
+                           .imageView = has ? *images_[scene.textures[texture].texels][roles[slot].srgb].view : *white_.view,
+                           .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        }
+        context_.device().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *materialSets_[i],
+                                   .dstBinding = 0,
+                                   .descriptorCount = kTextureSlots,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                   .pImageInfo = infos.data()},
+            nullptr);
+        drawMaterials_.push_back({uint32_t(material.surface), present, material.alphaMode == AlphaMode::mask,
+                                  material.doubleSided, *materialSets_[i]});
+    }
+}
+
+void GpuScene::uploadFunctions(const Scene& scene) {
+    std::vector<vec2> table = functionTable(scene.functions);
+    if (table.empty()) table.resize(kFunctionSamples);  // there are no empty images
+    const std::span<const std::byte> level = std::as_bytes(std::span(table));
+    functions_ = gpu::uploadImage(context_, "function table", vk::Format::eR32G32Sfloat,
+                                  {kFunctionSamples, uint32_t(table.size() / kFunctionSamples)}, std::span(&level, 1));
+}
+
+void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
+    const vk::DescriptorSetLayout layout = pipelines.frameSetLayout();
+    frameSet_ = std::move(vk::raii::DescriptorSets(
+        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+    const std::pair<uint32_t, vk::Buffer> buffers[] = {{kFrameView, view_.handle()},         {kFrameObjects, *objects_.handle},
+                                                       {kFrameMaterials, *materials_.handle}, {kFrameSurfaces, *surfaces_.handle},
+                                                       {kFrameLights, lightTable_.handle()}, {kFrameLinks, *links_.handle}};
+    for (const auto& [binding, handle] : buffers) {
+        const vk::DescriptorBufferInfo info{.buffer = handle, .range = VK_WHOLE_SIZE};
+        context_.device().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = *frameSet_,
+                                   .dstBinding = binding,
+                                   .descriptorCount = 1,
+                                   .descriptorType = binding == kFrameView ? vk::DescriptorType::eUniformBuffer
+                                                                           : vk::DescriptorType::eStorageBuffer,
+                                   .pBufferInfo = &info},
+            nullptr);
+    }
+    const vk::DescriptorImageInfo image{.sampler = *samplers_.back(),
+                                        .imageView = *functions_.view,
+                                        .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    context_.device().updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = *frameSet_,
+                               .dstBinding = kFrameFunctions,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                               .pImageInfo = &image},
+        nullptr);
+}
+
+void GpuScene::setView(const View& view, const RenderSettings& settings) {
+    ViewConstants constants = viewConstants(view, ambience_);
+    constants.lightCount = lightCount();
+    constants.linkWords = linkWords_;
+    constants.exposure = std::exp2(exposureEv_ + settings.exposureEv);
+    constants.toneMap = uint32_t(settings.toneMap);
+    view_.write(std::span<const ViewConstants>(&constants, 1));
+    const dmat4 viewFromWorld = inverse(dmat4(view.camera.worldFromView));
+    std::vector<LightConstants> table;
+    table.reserve(lights_.size());
+    for (const Light& light : lights_) table.push_back(lightConstants(light, viewFromWorld, functionCount_));
+    lightTable_.write(std::span<const LightConstants>(table));
+}
+
+void GpuScene::draw(frame::PassContext& pass, GBufferLayout layout, bool depthOnly) const {
+    if (batches_.empty()) return;
+    pass.commands.bindVertexBuffers(0, *vertices_.handle, vk::DeviceSize(0));
+    pass.commands.bindIndexBuffer(*indices_.handle, 0, vk::IndexType::eUint32);
+    uint32_t bound = kNone;
+    for (const Batch& batch : batches_) {
+        const DrawMaterial& material = drawMaterials_[batch.material];
+        if (bound != batch.material) {
+            bound = batch.material;
+            const char* fragment = !depthOnly        ? "render/geometry/surface.frag"
+                                   : material.masked ? "render/geometry/depth_masked.frag"
+                                                     : "";
+            pass.bind({.vertex = "render/geometry/surface.vert",
+                       .fragment = fragment,
+                       .meshVertices = true,
+                       .constants = {uint32_t(layout), ~0u, ~0u, material.surfaceShader, material.masked, material.textures}});
+            pass.bindSet(kMaterialSet, material.set);
+            pass.commands.setCullMode(material.doubleSided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        }
+        // Vulkan tells the winding in its own space, Y down, as our clip space is: what is counter-clockwise to the eye is
+        // counter-clockwise to the rasterizer.
+        pass.commands.setFrontFace(batch.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+        const MeshRange& mesh = meshes_[batch.mesh];
+        pass.commands.drawIndexed(mesh.indexCount, batch.objectCount, mesh.firstIndex, mesh.firstVertex, batch.firstObject);
+    }
+}
+
+}  // namespace luciole::render

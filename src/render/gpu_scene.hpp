@@ -1,0 +1,85 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include <luciole/renderer.hpp>
+
+#include "frame/pass_context.hpp"
+#include "gpu/pipelines.hpp"
+#include "gpu/resources.hpp"
+#include "render/shaders/types.shared.h"
+
+namespace luciole::render {
+
+/// Objects that one draw call can draw: same mesh, material and winding, consecutive in the table of objects.
+struct Batch {
+    uint32_t mesh;
+    uint32_t material;
+    bool mirrored;
+    uint32_t firstObject;
+    uint32_t objectCount;
+};
+
+/// A scene on the device: vertices, textures, and the tables that shaders read (types.shared.h).
+class GpuScene {
+public:
+    GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene);
+
+    /// Writes what depends on the view: its constants and the lights in view space.
+    void setView(const View& view, const RenderSettings& settings);
+
+    vk::DescriptorSet frameSet() const { return *frameSet_; }
+
+    /// What the lighting shaders can leave out for this scene (types.shared.h, kConstant*).
+    uint32_t equations() const { return equations_; }
+    uint32_t lightFeatures() const { return lightFeatures_; }
+    uint32_t lightCount() const { return uint32_t(lights_.size()); }
+    uint64_t triangles() const { return triangles_; }
+
+    /// Draws every batch with the geometry phase's shaders. `depthOnly`: the depth set-up pass.
+    void draw(frame::PassContext& pass, GBufferLayout layout, bool depthOnly) const;
+
+private:
+    struct MeshRange {
+        uint32_t firstIndex, indexCount;
+        int32_t firstVertex;
+    };
+    struct DrawMaterial {
+        uint32_t surfaceShader, textures;
+        bool masked, doubleSided;
+        vk::DescriptorSet set;
+    };
+    void uploadMeshes(const Scene& scene);
+    void uploadObjects(const Scene& scene);
+    void uploadMaterials(const Scene& scene);
+    void uploadTextures(const Scene& scene);
+    void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
+    void uploadFunctions(const Scene& scene);
+    void createFrameSet(const gpu::Pipelines& pipelines);
+
+    const gpu::Context& context_;
+    gpu::Buffer vertices_, indices_;
+    std::vector<MeshRange> meshes_;
+    gpu::Buffer objects_, materials_, surfaces_, links_;
+    gpu::MappedBuffer view_, lightTable_;
+    gpu::Image functions_;
+    std::vector<Batch> batches_;
+    std::vector<DrawMaterial> drawMaterials_;
+    /// Texels by [image][sRGB]: one image may serve as colour and as data.
+    std::vector<std::array<gpu::Image, 2>> images_;
+    gpu::Image white_;
+    std::vector<vk::raii::Sampler> samplers_;  // one per texture, then one plain
+    vk::raii::DescriptorPool pool_ = nullptr;
+    std::vector<vk::raii::DescriptorSet> materialSets_;
+    vk::raii::DescriptorSet frameSet_ = nullptr;
+    std::vector<Light> lights_;
+    Ambience ambience_;
+    float exposureEv_ = 0;
+    uint32_t functionCount_ = 0;
+    uint32_t equations_ = 0;
+    uint32_t lightFeatures_ = 0;
+    uint32_t linkWords_ = 0;
+    uint64_t triangles_ = 0;
+};
+
+}  // namespace luciole::render

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/geometry/gbuffer_read.glsl"
+#include "render/shaders/illuminate.glsl"
+
+layout(location = 0) out vec4 radiance;
+
+// Every light at every pixel, summed in registers: one rounding. The yardstick of all other techniques.
+void main() {
+    const Surface s = readSurface(ivec2(gl_FragCoord.xy));
+    const MaterialConstants m = materials[s.material];
+    vec3 sum = vec3(0);
+    for (uint i = 0u; i < view.lightCount; ++i) sum += illuminate(s, m, lights[i]);
+    radiance = vec4(sum, 0);
+}

@@ -1,0 +1,43 @@
+#include "render/lighting/techniques.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <luciole/error.hpp>
+
+namespace luciole::render {
+
+const std::vector<LightingTechnique>& techniques() {
+    static const std::vector<LightingTechnique> table = {
+        {{"brute-force", "one pass, every light at every pixel, summed in registers: the yardstick", "baseline"}, addBruteForce},
+        {{"fullscreen", "one full-screen pass per light, blended into the light buffer",
+          "Calver 2003, Photo-realistic Deferred Lighting, \"Full screen lights\""},
+         addFullScreen},
+    };
+    return table;
+}
+
+const LightingTechnique& techniqueNamed(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const LightingTechnique& technique : techniques()) {
+        if (technique.info.name == name) return technique;
+        names.push_back(technique.info.name);
+    }
+    throw Error(ErrorKind::usage, fmt::format("lighting: expected one of {}, got \"{}\"", fmt::join(names, ", "), name));
+}
+
+}  // namespace luciole::render
+
+namespace luciole {
+
+const std::vector<LightingTechniqueInfo>& lightingTechniques() {
+    static const std::vector<LightingTechniqueInfo> infos = [] {
+        std::vector<LightingTechniqueInfo> rows;
+        for (const auto& technique : render::techniques()) rows.push_back(technique.info);
+        rows.push_back({"reference", "on the CPU in double precision, no Vulkan: what every technique is held to",
+                        "docs/conventions.md"});
+        return rows;
+    }();
+    return infos;
+}
+
+}  // namespace luciole

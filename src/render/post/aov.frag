@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The additional layers, from the G-buffer.
+#include "render/geometry/gbuffer_read.glsl"
+#include "render/shaders/illuminate.glsl"
+
+layout(location = 0) out vec4 scalars;  // depth, material, object ID, light count
+layout(location = 1) out vec4 normal;   // world space
+layout(location = 2) out vec4 cs0;
+layout(location = 3) out vec4 cs1;
+
+bool reaches(LightConstants light, Surface s) {
+    if (!linked(light.linkGroup, s.objectId)) return false;
+    if (light.type == kLightDirectional) return true;
+    const vec3 toLight = light.position - s.P;
+    const float dist = length(toLight);
+    const bool inCone = light.type != kLightSpot || -dot(toLight, light.direction) > light.cosOuter * dist;
+    return dist < light.range && inCone;
+}
+
+void main() {
+    const Surface s = readSurface(ivec2(gl_FragCoord.xy));
+    uint count = 0u;
+    for (uint i = 0u; i < view.lightCount; ++i) count += uint(reaches(lights[i], s));
+    // materials[0] stands for "no surface", so the scene's indices are one lower.
+    scalars = vec4(-s.P.z, float(s.material) - 1.0, float(s.objectId), float(count));
+    normal = vec4(mat3(view.worldFromView) * s.N, 0);
+    cs0 = vec4(s.Cs0, 0);
+    cs1 = vec4(s.Cs1, 0);
+}

@@ -1,0 +1,179 @@
+#include <luciole/error.hpp>
+#include <luciole/renderer.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "frame/executor.hpp"
+#include "frame/pass_context.hpp"
+#include "gpu/shaders.hpp"
+#include "render/geometry/gbuffer.hpp"
+#include "render/gpu_scene.hpp"
+#include "render/lighting/techniques.hpp"
+#include "render/post/post.hpp"
+
+namespace luciole {
+
+using frame::Access;
+
+const std::vector<std::string>& aovNames() {
+    static const std::vector<std::string> names{"depth", "normal", "cs0", "cs1", "material", "id", "light-count"};
+    return names;
+}
+
+namespace render {
+namespace {
+
+/// What the structure of the frame depends on; everything else is data.
+struct FrameKey {
+    uvec2 extent;
+    std::string lighting;
+    GBufferLayout gbuffer;
+    LightBufferFormat lightBuffer;
+    bool depthPrepass;
+    bool aovs;
+    bool operator==(const FrameKey&) const = default;
+};
+
+struct BuiltFrame {
+    FrameKey key;
+    FrameOutputs outputs;
+    frame::Executor executor;
+};
+
+void addDepthPrepass(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey& key, const GBuffer& gbuffer) {
+    graph.addPass("geometry.depth")
+        .clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
+        .record([&scene, layout = key.gbuffer](frame::PassContext& pass) {
+            pass.depth(vk::CompareOp::eGreater, true);
+            scene.draw(pass, layout, true);
+        });
+}
+
+/// Phase 1 (Calver 2003, "Geometry phase"): fills the G-buffer. Material 0 of the cleared targets means "no surface".
+void addGeometry(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey& key, const GBuffer& gbuffer) {
+    auto pass = graph.addPass("geometry.gbuffer");
+    for (const frame::ImageId target : gbuffer.targets)
+        pass.clear(target, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    if (key.depthPrepass)
+        pass.write(gbuffer.depth, Access::depthWrite);
+    else
+        pass.clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0});
+    pass.record([&scene, layout = key.gbuffer, after = key.depthPrepass](frame::PassContext& context) {
+        context.depth(after ? vk::CompareOp::eEqual : vk::CompareOp::eGreater, !after);
+        scene.draw(context, layout, false);
+    });
+}
+
+/// The whole frame, in order.
+BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, const GpuScene& scene, const FrameKey& key) {
+    const vk::Extent2D extent{key.extent.x, key.extent.y};
+    frame::FrameGraph graph;
+    const GBuffer gbuffer = createGBuffer(graph, key.gbuffer, extent);
+    const auto radianceFormat = key.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
+                                                                              : vk::Format::eR16G16B16A16Sfloat;
+    const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
+    const LightingInputs lighting{gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}};
+
+    if (key.depthPrepass) addDepthPrepass(graph, scene, key, gbuffer);
+    addGeometry(graph, scene, key, gbuffer);
+    addInitialLight(graph, lighting, radiance);
+    techniqueNamed(key.lighting).add(graph, lighting, radiance);
+    const frame::ImageId display = addToneMap(graph, radiance, extent);
+    const FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
+    return {key, outputs, frame::Executor(context, pipelines, std::move(graph))};
+}
+
+void checkRequest(const gpu::Context& context, const View& view, const std::vector<std::string>& aovs) {
+    const auto& limits = context.limits();
+    const uint32_t limit = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight, 16384u});
+    if (view.extent.x < 1 || view.extent.y < 1)
+        throw Error(ErrorKind::usage, fmt::format("size: expected at least 1x1, got {}x{}", view.extent.x, view.extent.y));
+    if (view.extent.x > limit || view.extent.y > limit)
+        throw Error(ErrorKind::limit, fmt::format("size: expected at most {0}x{0} pixels on {1}, got {2}x{3}", limit,
+                                                  context.info().name, view.extent.x, view.extent.y));
+    for (const std::string& name : aovs)
+        if (std::ranges::find(aovNames(), name) == aovNames().end())
+            throw Error(ErrorKind::usage, fmt::format("aov: expected one of {}, got \"{}\"", fmt::join(aovNames(), ", "), name));
+}
+
+}  // namespace
+}  // namespace render
+
+struct Renderer::Impl {
+    explicit Impl(const RendererOptions& options) : context(options), pipelines(context, gpu::shaderCode) { setScene({}); }
+
+    void setScene(const Scene& scene) {
+        frame.reset();
+        gpuScene.reset();  // before the new one is made: both may not fit
+        gpuScene = std::make_unique<render::GpuScene>(context, pipelines, scene);
+    }
+
+    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
+        render::checkRequest(context, view, aovs);
+        context.resetPeak();
+        const render::FrameKey key{view.extent,          settings.lighting,     settings.gbuffer,
+                                   settings.lightBuffer, settings.depthPrepass, !aovs.empty()};
+        if (!frame || frame->key != key) {
+            frame.reset();
+            frame = std::make_unique<render::BuiltFrame>(render::buildFrame(context, pipelines, *gpuScene, key));
+        }
+        gpuScene->setView(view, settings);
+        const auto start = std::chrono::steady_clock::now();
+        frame->executor.run(gpuScene->frameSet(), settings.measure);
+        const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+
+        Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
+        result.stats = {.passes = frame->executor.stats(),
+                        .wallMs = wall.count(),
+                        .peakBytes = context.peakBytes(),
+                        .triangles = gpuScene->triangles(),
+                        .lights = gpuScene->lightCount(),
+                        .deviceName = context.info().name,
+                        .driver = context.info().driver};
+        result.graph = frame->executor.dot();
+        return result;
+    }
+
+    gpu::Context context;
+    gpu::Pipelines pipelines;
+    std::unique_ptr<render::GpuScene> gpuScene;
+    std::unique_ptr<render::BuiltFrame> frame;
+};
+
+namespace {
+
+/// Runs `work`; what Vulkan throws becomes an Error.
+template <typename Work>
+auto translatingVulkanErrors(const Work& work) {
+    try {
+        return work();
+    } catch (const vk::SystemError& error) {
+        throw Error(ErrorKind::deviceLost, fmt::format("Vulkan: {}", error.what()));
+    }
+}
+
+}  // namespace
+
+Renderer::Renderer(const RendererOptions& options)
+    : impl_(translatingVulkanErrors([&] { return std::make_unique<Impl>(options); })) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const DeviceInfo& Renderer::device() const { return impl_->context.info(); }
+
+void Renderer::setScene(const Scene& scene) {
+    translatingVulkanErrors([&] { impl_->setScene(scene); });
+}
+
+Frame Renderer::render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
+    return translatingVulkanErrors([&] { return impl_->render(view, settings, aovs); });
+}
+
+}  // namespace luciole

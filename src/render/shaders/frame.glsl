@@ -1,0 +1,19 @@
+// Set 0: the tables of the frame, for every pass.
+#ifndef LUCIOLE_FRAME_GLSL
+#define LUCIOLE_FRAME_GLSL
+#extension GL_EXT_scalar_block_layout : require
+#include "gpu/bindings.shared.h"
+#include "render/shaders/types.shared.h"
+
+layout(constant_id = 0) const uint kLayout = 0u;
+layout(constant_id = 1) const uint kEquations = ~0u;
+layout(constant_id = 2) const uint kLights = ~0u;
+
+layout(set = 0, binding = 0, scalar) uniform View { ViewConstants view; };
+layout(set = 0, binding = 1, scalar) readonly buffer Objects { ObjectConstants objects[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer Materials { MaterialConstants materials[]; };
+layout(set = 0, binding = 3, scalar) readonly buffer Surfaces { SurfaceConstants surfaces[]; };
+layout(set = 0, binding = 4, scalar) readonly buffer Lights { LightConstants lights[]; };
+layout(set = 0, binding = 5, scalar) readonly buffer Links { uint links[]; };
+layout(set = 0, binding = 6) uniform sampler2D functions;
+#endif

@@ -1,0 +1,16 @@
+// A surface point as the lighting phase sees it, whatever the G-buffer's layout.
+#ifndef LUCIOLE_SURFACE_GLSL
+#define LUCIOLE_SURFACE_GLSL
+
+struct Surface {
+    vec3 P;               // view space, metres
+    vec3 N;               // view space, unit
+    vec3 Cs0;
+    vec3 Cs1;
+    float specularBlend;  // metallic-roughness: metallic
+    float roughness;
+    float occlusion;
+    uint material;        // 0: there is no surface
+    uint objectId;
+};
+#endif

@@ -1,0 +1,119 @@
+// Everything that the host writes and shaders read. Scalar block layout, so that both compilers lay it out alike.
+#ifndef LUCIOLE_TYPES_SHARED_H
+#define LUCIOLE_TYPES_SHARED_H
+#include "render/shaders/shared.h"
+SHARED_BEGIN
+
+const uint kNoIndex = 0xffffffffu;
+
+// One view of the scene. Set 0, kFrameView.
+struct ViewConstants {
+    mat4 clipFromView;
+    mat4 viewFromWorld;
+    mat4 worldFromView;
+    mat4 viewFromGBuffer;  // from (pixel / extent, depth, 1), un-biasing included (Calver 2003, "Storing Position")
+    vec3 sky;              // ambience, radiance
+    uint lightCount;
+    vec3 ground;
+    uint linkWords;        // 32-bit words of one row of the link table
+    vec3 upView;
+    uint orthographic;
+    vec2 extent;           // pixels
+    float exposure;        // factor
+    uint toneMap;
+};
+
+// One object. Set 0, kFrameObjects, indexed by instance.
+struct ObjectConstants {
+    mat4 worldFromObject;
+    mat3 worldNormalFromObject;
+    float tangentSign;
+    uint material;  // index into surfaces and materials; 0 means "no surface"
+    uint objectId;
+};
+
+// What the geometry phase needs of a material. Set 0, kFrameSurfaces.
+const uint kTextureBaseColor = 0u;
+const uint kTextureMetallicRoughness = 1u;
+const uint kTextureNormal = 2u;
+const uint kTextureOcclusion = 3u;
+const uint kTextureEmissive = 4u;
+const uint kTextureSlots = 5u;
+
+struct TextureSlot {
+    vec3 uRow;  // u' = dot(uRow, (u, v, 1))
+    vec3 vRow;
+    uint uvSet;
+};
+
+struct SurfaceConstants {
+    vec4 baseColor;
+    vec3 cs1;         // shaped: Ks times the specular colour; metallic-roughness: emissive / Kemm
+    float metallic;   // shaped: specular blend
+    float roughness;
+    float normalScale;
+    float occlusionStrength;
+    float alphaCutoff;
+    vec3 cs0Factor;   // shaped: Kd; then divided by MaterialConstants.cs0Scale
+    float cs1Factor;  // 1 / MaterialConstants.cs1Scale
+    vec3 proceduralColor;
+    float proceduralScale;
+    uint equation;
+    TextureSlot slots[5];
+};
+
+// What the lighting phase needs of a material. Set 0, kFrameMaterials. Equations as enum LightEquation.
+const uint kEquationMetallicRoughness = 0u;
+const uint kEquationShaped = 1u;
+const uint kEquationUnlit = 2u;
+
+struct MaterialConstants {
+    vec3 kAmbient;
+    float kEmissive;
+    float cs0Scale;  // the G-buffer stores Cs0 / cs0Scale, so that colours above 1 fit
+    float cs1Scale;
+    uint equation;
+    uint diffuseFunction;   // Fa: row of the function table
+    uint specularFunction;  // Fb
+};
+
+// One light, in view space. Set 0, kFrameLights. Types as enum LightType.
+const uint kLightDirectional = 0u;
+const uint kLightPoint = 1u;
+const uint kLightSpot = 2u;
+const uint kLightDiffuse = 1u;         // flags
+const uint kLightSpecular = 2u;
+const uint kLightInfiniteViewer = 4u;
+
+struct LightConstants {
+    vec3 position;
+    float range;        // metres; a very large number where the light has none
+    vec3 direction;     // where it shines to
+    float inverseRange; // 0 where the light has no range
+    vec3 color;         // lux or candela
+    float coneScale;    // glTF's cone: clamp(cos * coneScale + coneOffset)^2
+    float coneOffset;
+    float cosOuter;
+    uint type;
+    uint flags;
+    uint attenuation;   // row of the function table, or kNoIndex
+    uint falloff;       // likewise
+    uint linkGroup;     // row of the link table, or kNoIndex
+};
+
+// The table of functions of one variable. Odd, so that 0 of [-1, 1] is a sample.
+const uint kFunctionSamples = 4097u;
+
+// Specialization constants that all passes of a frame share.
+const uint kConstantLayout = 0u;     // enum GBufferLayout
+const uint kConstantEquations = 1u;  // bit e: some material uses equation e
+const uint kConstantLights = 2u;     // bits kUses*
+const uint kUsesLocal = 1u;          // a point or spot light
+const uint kUsesDirectional = 2u;
+const uint kUsesSpot = 4u;
+const uint kUsesCurves = 8u;         // an attenuation or falloff function
+const uint kUsesLinks = 16u;
+const uint kUsesContributions = 32u; // a diffuse-only, specular-only or infinite-viewer light
+
+SHARED_END
+#endif

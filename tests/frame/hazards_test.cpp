@@ -1,0 +1,82 @@
+#include "frame/hazards.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace luciole::frame;
+
+namespace {
+
+constexpr ImageDesc kColor{vk::Format::eR32G32B32A32Sfloat, {64, 32}};
+const auto kClear = vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f);
+
+/// write a; blend a (write-after-write); sample a (read-after-write); overwrite a (write-after-read); copy a.
+struct Fixture {
+    FrameGraph graph;
+    ImageId a = graph.createImage("a", kColor), b = graph.createImage("b", kColor);
+    CompiledGraph compiled;
+    Fixture() {
+        graph.addPass("first").clear(a, Access::colorWrite, kClear);
+        graph.addPass("blend").write(a, Access::colorBlend);
+        graph.addPass("sample").read(a, Access::fragmentSampled, 0).clear(b, Access::colorWrite, kClear);
+        graph.addPass("again").read(b, Access::fragmentSampled, 0).clear(a, Access::colorWrite, kClear);
+        const BufferId result = graph.createBuffer("result", 64);
+        graph.addPass("copy").read(a, Access::transferRead).write(result, Access::transferWrite);
+        graph.output(result);
+        compiled = graph.compile();
+        REQUIRE(compiled.passes.size() == 5);
+    }
+    Barrier& barrier(size_t pass) {
+        for (Barrier& candidate : compiled.passes[pass].barriers)
+            if (candidate.resource == a.index) return candidate;
+        throw std::logic_error("no barrier");
+    }
+    bool finds(const std::string& text) {
+        for (const std::string& hazard : findHazards(graph, compiled))
+            if (hazard.find(text) != std::string::npos) return true;
+        return false;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("hazards: what the graph compiles has none") {
+    Fixture fixture;
+    CHECK(findHazards(fixture.graph, fixture.compiled).empty());
+}
+
+TEST_CASE("hazards: without its barrier each kind is found, with both passes and the resource") {
+    Fixture fixture;
+    const auto weaken = [&](size_t pass) { fixture.barrier(pass).srcStages = vk::PipelineStageFlagBits2::eNone; };
+    SUBCASE("write after write") {
+        weaken(1);
+        CHECK(fixture.finds("write-after-write hazard on a between passes first and blend"));
+    }
+    SUBCASE("read after write") {
+        weaken(2);
+        CHECK(fixture.finds("read-after-write hazard on a between passes blend and sample"));
+    }
+    SUBCASE("write after read") {
+        weaken(3);
+        CHECK(fixture.finds("write-after-read hazard on a between passes sample and again"));
+    }
+}
+
+TEST_CASE("hazards: an execution barrier alone does not make a write visible") {
+    Fixture fixture;
+    SUBCASE("not flushed") { fixture.barrier(2).srcAccess = {}; }
+    SUBCASE("not invalidated") { fixture.barrier(2).dstAccess = {}; }
+    SUBCASE("visible to another kind of access only") { fixture.barrier(2).dstAccess = vk::AccessFlagBits2::eUniformRead; }
+    CHECK(fixture.finds("read-after-write hazard on a between passes blend and sample"));
+}
+
+TEST_CASE("hazards: the wrong stage does not wait") {
+    Fixture fixture;
+    fixture.barrier(2).dstStages = vk::PipelineStageFlagBits2::eComputeShader;
+    CHECK(fixture.finds("read-after-write hazard on a between passes blend and sample"));
+}
+
+TEST_CASE("hazards: an image in the wrong layout is found") {
+    Fixture fixture;
+    fixture.barrier(2).newLayout = vk::ImageLayout::eGeneral;
+    CHECK(fixture.finds("layout of a in pass sample"));
+}
