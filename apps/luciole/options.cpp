@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
+#include <memory>
 #include <system_error>
 
 namespace luciole::cli {
@@ -27,10 +28,16 @@ bool parseAll(std::string_view text, T& value) {
 }
 
 std::string readText(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream.is_open() || stream.bad())
+    const auto fail = [&] {
         throw Error(ErrorKind::io, fmt::format("{}: can't read: {}", file, std::generic_category().message(errno)));
+    };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), std::fclose);
+    if (!stream) fail();
+    std::string text;
+    std::array<char, 4096> block;
+    while (const size_t count = std::fread(block.data(), 1, block.size(), stream.get()))
+        text.append(block.data(), count);
+    if (std::ferror(stream.get()) != 0) fail();
     return text;
 }
 

@@ -110,10 +110,12 @@ void requireWritable(const fs::path& file) {
         throw Error(ErrorKind::io,
                     fmt::format("{}: can't write: {}", file.string(), std::generic_category().message(code)));
     };
-    if (fs::is_directory(file)) fail(EISDIR);
+    std::error_code code;
+    if (fs::is_directory(file, code)) fail(EISDIR);
     const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    const fs::file_status status = fs::status(folder, code);
+    if (!fs::is_directory(status)) fail(fs::exists(status) ? ENOTDIR : code.value());
     if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(errno);
-    if (!fs::is_directory(folder)) fail(ENOTDIR);
 }
 
 }  // namespace luciole::cli

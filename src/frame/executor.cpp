@@ -24,10 +24,6 @@ vk::DescriptorType descriptorType(const Resource& resource, Access access) {
 Executor::Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph)
     : context_(context), pipelines_(pipelines), graph_(std::move(graph)), compiled_(graph_.compile()) {
     createResources();
-    sampler_ = vk::raii::Sampler(context_.device(), {.magFilter = vk::Filter::eNearest,
-                                                     .minFilter = vk::Filter::eNearest,
-                                                     .addressModeU = vk::SamplerAddressMode::eClampToEdge,
-                                                     .addressModeV = vk::SamplerAddressMode::eClampToEdge});
     createPassSets();
     const auto passes = uint32_t(compiled_.passes.size());
     queries_ = vk::raii::QueryPool(context_.device(),
@@ -82,7 +78,7 @@ void Executor::createPassSets() {
         for (const Use& use : graph_.passes()[compiled_.passes[i].pass].uses) {
             if (use.binding == kNoBinding) continue;
             const Resource& resource = graph_.resources()[use.resource];
-            vk::DescriptorImageInfo image{.sampler = *sampler_};
+            vk::DescriptorImageInfo image;
             vk::DescriptorBufferInfo bufferInfo{.range = VK_WHOLE_SIZE};
             if (resource.isImage()) {
                 image.imageView = *images_.at(use.resource).view;

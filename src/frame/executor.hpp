@@ -43,7 +43,6 @@ private:
     std::map<uint32_t, gpu::Image> images_;
     std::map<uint32_t, gpu::Buffer> buffers_;
     std::map<uint32_t, gpu::MappedBuffer> hostBuffers_;
-    vk::raii::Sampler sampler_ = nullptr;  // set 1 is read by texelFetch: nearest, clamped
     vk::raii::DescriptorPool pool_ = nullptr;
     std::vector<vk::raii::DescriptorSet> passSets_;
     vk::raii::QueryPool queries_ = nullptr;

@@ -11,7 +11,7 @@ const uint kFrameSurfaces = 3u;
 const uint kFrameLights = 4u;
 const uint kFrameLinks = 5u;
 const uint kFrameFunctions = 6u;  // sampled image: the function table
-const uint kFrameBindings = 7u;
+const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once more
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;     // 8 sampled images

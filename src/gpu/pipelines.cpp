@@ -20,13 +20,17 @@ vk::raii::DescriptorSetLayout makeLayout(const Context& context, const std::vect
     return {context.device(), {.bindingCount = uint32_t(bindings.size()), .pBindings = bindings.data()}};
 }
 
-std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context) {
+std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context, vk::Sampler texelSampler) {
     using namespace shared;
     std::vector<vk::DescriptorSetLayoutBinding> frame, pass, material;
     add(frame, kFrameView, 1, Type::eUniformBuffer);
     add(frame, kFrameObjects, kFrameFunctions - kFrameObjects, Type::eStorageBuffer);
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
+    add(frame, kFrameUniformLights, 1, Type::eUniformBuffer);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
+    // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
+    // every slot and would follow a null pointer.
+    for (auto& binding : pass) binding.pImmutableSamplers = &texelSampler;
     add(pass, kPassStorageImage, kPassStorageImageCount, Type::eStorageImage);
     add(pass, kPassStorageBuffer, kPassStorageBufferCount, Type::eStorageBuffer);
     add(material, 0, kMaterialTextures, Type::eCombinedImageSampler);
@@ -62,7 +66,13 @@ constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
 }  // namespace
 
 Pipelines::Pipelines(const Context& context, ShaderLibrary shaders)
-    : context_(context), shaders_(shaders), setLayouts_(makeSetLayouts(context)) {
+    : context_(context),
+      shaders_(shaders),
+      texelSampler_(context.device(), {.magFilter = vk::Filter::eNearest,
+                                       .minFilter = vk::Filter::eNearest,
+                                       .addressModeU = vk::SamplerAddressMode::eClampToEdge,
+                                       .addressModeV = vk::SamplerAddressMode::eClampToEdge}),
+      setLayouts_(makeSetLayouts(context, *texelSampler_)) {
     std::vector<vk::DescriptorSetLayout> handles;
     for (const auto& layout : setLayouts_) handles.push_back(*layout);
     const vk::PushConstantRange push{kAllStages, 0, shared::kPushBytes};

@@ -46,6 +46,7 @@ private:
 
     const Context& context_;
     ShaderLibrary shaders_;
+    vk::raii::Sampler texelSampler_;  // set 1 is read by texelFetch: nearest, clamped
     std::vector<vk::raii::DescriptorSetLayout> setLayouts_;
     vk::raii::PipelineLayout layout_ = nullptr;
     std::map<PipelineKey, vk::raii::Pipeline> pipelines_;

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace luciole::reference {
+namespace {
+
+constexpr double kLattice = 4294967296.0;  ///< 2^32: hashes have 32 bits, and so have the lattice's coordinates
+
+}  // namespace
 
 // Jarzynski and Olano 2020, "Hash Functions for GPU Rendering" (PCG), over a mix of the coordinates by Teschner et al.
 // 2003, "Optimized Spatial Hashing for Collision Detection of Deformable Objects".
@@ -18,8 +23,9 @@ double valueNoise(dvec3 p) {
     const dvec3 cell = floor(p);
     const dvec3 f = p - cell;
     const dvec3 weight = f * f * f * (f * (6.0 * f - 15.0) + 10.0);
+    const dvec3 wrapped = mod(cell, kLattice);
     const auto value = [&](int x, int y, int z) {
-        return double(latticeHash(int64_t(cell.x) + x, int64_t(cell.y) + y, int64_t(cell.z) + z)) / 4294967296.0;
+        return double(latticeHash(int64_t(wrapped.x) + x, int64_t(wrapped.y) + y, int64_t(wrapped.z) + z)) / kLattice;
     };
     const auto alongX = [&](int y, int z) { return glm::mix(value(0, y, z), value(1, y, z), weight.x); };
     const auto alongY = [&](int z) { return glm::mix(alongX(0, z), alongX(1, z), weight.y); };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -98,9 +100,8 @@ private:
         const dvec3 V = rays_.toEye(surface.P);
         for (const LightSource& light : lights_) {
             const auto arrival = light.arrivalAt(surface.P);
-            if (!arrival) continue;
+            if (!arrival || !light.touches(object.objectId)) continue;
             ++pixel.lightCount;
-            if (!light.touches(object.objectId)) continue;
             const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
             pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
         }

@@ -41,12 +41,13 @@ dvec3 directionOf(dvec3 v, dvec3 fallback) {
     return norm > 0 ? v / norm : fallback;
 }
 
+/// Weights where a ray meets the plane "far away", as one does that runs within it: the level of detail is the last.
+constexpr double kFar = 1e30;
+
 dvec3 weightsOn(const Ray& ray, const std::array<dvec3, 3>& triangle) {
     const PlaneHit hit = intersectPlane(ray.origin, ray.direction, triangle);
-    const dvec3 weights(1 - hit.u - hit.v, hit.u, hit.v);
-    // A ray within the plane meets it "far away": the level of detail is the last.
-    constexpr double kFar = 1e30;
-    return clamp(weights, -kFar, kFar);
+    const auto bounded = [](double w) { return std::isfinite(w) ? std::clamp(w, -kFar, kFar) : kFar; };
+    return {bounded(1 - hit.u - hit.v), bounded(hit.u), bounded(hit.v)};
 }
 
 }  // namespace
@@ -201,6 +202,8 @@ SurfacePoint Surfaces::pointAt(const Hit& hit, const Footprint& footprint) const
         point.metallic = material.metallic * metallicRoughness.b;
         point.roughness = material.roughness * metallicRoughness.g;
         point.occlusion = 1 + material.occlusionStrength * (read(place.prepared.occlusion, place).r - 1);
+    } else {
+        point.Cs1 = point.Cs0;  // shown by the layer "cs1": an unlit surface glows in its base colour
     }
     return point;
 }

@@ -74,9 +74,14 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     uploadFunctions(scene);
     links_ = gpu::uploadBuffer(context_, "link table", linkTable(scene, linkWords_), Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
-    lightTable_ = gpu::MappedBuffer(context_, "light table", lights_.size() * sizeof(LightConstants), Usage::eStorageBuffer);
+    // Never smaller than the uniform block that shaders may read it through.
+    const size_t uniformBytes = kUniformLights * sizeof(LightConstants);
+    lightTable_ = gpu::MappedBuffer(context_, "light table", std::max(lights_.size() * sizeof(LightConstants), uniformBytes),
+                                    Usage::eStorageBuffer | Usage::eUniformBuffer);
     createFrameSet(pipelines);
     lightFeatures_ = render::lightFeatures(lights_);
+    if (lights_.size() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange)
+        lightFeatures_ |= kUsesUniformLights;
     for (const Material& material : scene.materials) equations_ |= 1u << uint32_t(material.equation);
     triangles_ = triangleCount(scene);
 }
@@ -156,7 +161,7 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
     const auto count = uint32_t(scene.materials.size());
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 1},
                                             {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects},
-                                            {vk::DescriptorType::eUniformBuffer, 1}};
+                                            {vk::DescriptorType::eUniformBuffer, 2}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                                          .maxSets = count + 1,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
@@ -202,19 +207,29 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
     const vk::DescriptorSetLayout layout = pipelines.frameSetLayout();
     frameSet_ = std::move(vk::raii::DescriptorSets(
         context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
-    const std::pair<uint32_t, vk::Buffer> buffers[] = {{kFrameView, view_.handle()},         {kFrameObjects, *objects_.handle},
-                                                       {kFrameMaterials, *materials_.handle}, {kFrameSurfaces, *surfaces_.handle},
-                                                       {kFrameLights, lightTable_.handle()}, {kFrameLinks, *links_.handle}};
-    for (const auto& [binding, handle] : buffers) {
-        const vk::DescriptorBufferInfo info{.buffer = handle, .range = VK_WHOLE_SIZE};
-        context_.device().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = *frameSet_,
-                                   .dstBinding = binding,
-                                   .descriptorCount = 1,
-                                   .descriptorType = binding == kFrameView ? vk::DescriptorType::eUniformBuffer
-                                                                           : vk::DescriptorType::eStorageBuffer,
-                                   .pBufferInfo = &info},
-            nullptr);
+    struct Binding {
+        uint32_t slot;
+        vk::Buffer buffer;
+        vk::DescriptorType type;
+        vk::DeviceSize range;
+    };
+    const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
+    const auto uniformLightBytes = std::min<vk::DeviceSize>(kUniformLights * sizeof(LightConstants), context_.limits().maxUniformBufferRange);
+    const Binding bindings[] = {{kFrameView, view_.handle(), uniform, VK_WHOLE_SIZE},
+                                {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameSurfaces, *surfaces_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameLights, lightTable_.handle(), storage, VK_WHOLE_SIZE},
+                                {kFrameLinks, *links_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameUniformLights, lightTable_.handle(), uniform, uniformLightBytes}};
+    for (const Binding& binding : bindings) {
+        const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
+        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *frameSet_,
+                                                                      .dstBinding = binding.slot,
+                                                                      .descriptorCount = 1,
+                                                                      .descriptorType = binding.type,
+                                                                      .pBufferInfo = &info},
+                                               nullptr);
     }
     const vk::DescriptorImageInfo image{.sampler = *samplers_.back(),
                                         .imageView = *functions_.view,

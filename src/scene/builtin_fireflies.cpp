@@ -49,7 +49,7 @@ Material foliage(const char* name) {
 
 /// Far things and the water: what the garden is set in.
 void addSetting(Scene& scene, const Random& random) {
-    const vec3 glow = glm::normalize(vec3(-0.25f, 0, -1));
+    const vec3 glow = glm::normalize(vec3(-0.05f, 0, -1));
     addObject(scene, "sky", addMesh(scene, sky(glow), "sky"), addMaterial(scene, unlit("sky")));
     addObject(scene, "far hills", addMesh(scene, hills(80, 11, random), "far hills"),
               addMaterial(scene, unlit("far hills", {0.035f, 0.04f, 0.085f})));
@@ -90,30 +90,32 @@ void addTrees(Scene& scene, Random random) {
         float size;
         int kind;
     };
-    constexpr std::array<Planted, 10> kTrees = {{{"maple", kMaple, 1, 0},
-                                                 {"oak", {5.6f, -2.6f}, 1.15f, 1},
-                                                 {"oak", {-7.4f, -6.5f}, 1.2f, 1},
-                                                 {"oak", {7.4f, -8.5f}, 1.1f, 1},
-                                                 {"maple", {1.6f, -10.5f}, 0.7f, 0},
-                                                 {"oak", {-3.2f, -11}, 0.85f, 1},
-                                                 {"oak", {11, -12}, 1.2f, 1},
-                                                 {"oak", {-11, -11}, 1.3f, 1},
-                                                 {"maple", {5.2f, -13.5f}, 0.8f, 0},
-                                                 {"oak", {-6.2f, 1.5f}, 1.1f, 1}}};
+    enum Kind { maple, oak, farMaple, farOak };
+    constexpr std::array<Planted, 9> kTrees = {{{"maple", kMaple, 1, maple},
+                                                {"oak", {5.6f, -2.6f}, 1.15f, oak},
+                                                {"oak", {-7.4f, -6.5f}, 1.2f, farOak},
+                                                {"oak", {7.4f, -8.5f}, 1.1f, farOak},
+                                                {"maple", {1.6f, -10.5f}, 0.7f, farMaple},
+                                                {"oak", {-3.2f, -11}, 0.85f, farOak},
+                                                {"oak", {11, -12}, 1.2f, farOak},
+                                                {"oak", {-11, -11}, 1.3f, farOak},
+                                                {"maple", {5.2f, -13.5f}, 0.8f, farMaple}}};
     const uint32_t bark = addMaterial(scene, matte("bark", {0.1f, 0.075f, 0.055f}));
     const uint32_t leaves = addMaterial(scene, foliage("leaves"));
-    struct Kind {
+    struct Meshes {
         uint32_t wood, leaves;
     };
-    const auto addKind = [&](const char* name, const Tree& made) {
-        return Kind{addMesh(scene, made.wood, fmt::format("{} wood", name)),
-                    addMesh(scene, made.leaves, fmt::format("{} leaves", name))};
+    const auto addKind = [&](const char* name, float height, vec3 tint, int levels) {
+        Tree made = tree(Random(random.next()), height, tint, levels);
+        return Meshes{addMesh(scene, std::move(made.wood), fmt::format("{} wood", name)),
+                      addMesh(scene, std::move(made.leaves), fmt::format("{} leaves", name))};
     };
-    const std::array<Kind, 2> kinds = {addKind("maple", tree(Random(random.next()), 4.4f, {0.5f, 0.1f, 0.035f})),
-                                       addKind("oak", tree(Random(random.next()), 5.2f, {0.09f, 0.17f, 0.06f}))};
+    const vec3 crimson(0.5f, 0.1f, 0.035f), green(0.09f, 0.17f, 0.06f);
+    const std::array<Meshes, 4> kinds = {addKind("maple", 4.4f, crimson, 5), addKind("oak", 5.2f, green, 5),
+                                         addKind("far maple", 4.4f, crimson, 4), addKind("far oak", 5.2f, green, 4)};
     int number = 0;
     for (const Planted& planted : kTrees) {
-        const Kind& kind = kinds[size_t(planted.kind)];
+        const Meshes& kind = kinds[size_t(planted.kind)];
         const mat4 place = placed(onGround(planted.at), between(random, 0, 2 * kPi), planted.size);
         addObject(scene, fmt::format("{} {}", planted.name, number), kind.wood, bark, place);
         addObject(scene, fmt::format("{} {} leaves", planted.name, number++), kind.leaves, leaves, place);
@@ -147,7 +149,7 @@ void addStones(Scene& scene, Random random) {
 }
 
 void addGrass(Scene& scene, Random random) {
-    constexpr int kKinds = 6, kTufts = 720;
+    constexpr int kKinds = 6, kTufts = 820;
     std::array<uint32_t, kKinds> tufts{};
     for (uint32_t& tuft : tufts) tuft = addMesh(scene, grassTuft(Random(random.next())), "grass");
     const uint32_t reed = addMesh(scene, reeds(Random(random.next())), "reeds");
@@ -159,7 +161,8 @@ void addGrass(Scene& scene, Random random) {
         const float angle = between(random, -0.62, 0.62);
         const vec2 at = vec2(kEye.x, kEye.z) + away * vec2(std::sin(angle), -std::cos(angle));
         if (pondEdge(at) < 1.1f || distanceToPath(at) < 0.34f || glm::distance(at, kLantern) < 0.42f) continue;
-        const float size = between(random, 0.7, 1.35);
+        // Low where it stands before the eye, so that it frames the pond and does not hide it.
+        const float size = between(random, 0.75, 1.3) * glm::mix(0.42f, 1.0f, glm::smoothstep(1.4f, 6.5f, away));
         addObject(scene, fmt::format("grass {}", number++), tufts[random.below(kKinds)], grass,
                   placed(onGround(at, -0.02f), between(random, 0, 2 * kPi), size));
     }
@@ -205,7 +208,7 @@ void addBuilt(Scene& scene) {
     addObject(scene, "lantern", addMesh(scene, made.stone, "lantern"),
               addMaterial(scene, matte("granite", {0.3f, 0.285f, 0.265f}, 0.8f)), place);
     Material paper = matte("lantern paper", {0.6f, 0.5f, 0.35f});
-    paper.emissive = {2.2f, 0.95f, 0.28f};
+    paper.emissive = {1.25f, 0.5f, 0.12f};
     addObject(scene, "lantern paper", addMesh(scene, made.paper, "lantern paper"), addMaterial(scene, paper), place);
     addObject(scene, "bridge", addMesh(scene, bridge(4.6f), "bridge"),
               addMaterial(scene, matte("vermilion", {0.42f, 0.06f, 0.03f}, 0.5f)),
@@ -217,7 +220,7 @@ void addStillLights(Scene& scene) {
     scene.lights.push_back({.name = "moon",
                             .type = LightType::directional,
                             .directionWorld = glm::normalize(vec3(-0.2f, -0.4f, 1)),
-                            .color = {0.2f, 0.27f, 0.4f}});
+                            .color = {0.14f, 0.19f, 0.28f}});
     scene.lights.push_back({.name = "lantern",
                             .positionWorld = onGround(kLantern, kFlameHeight),
                             .color = {2.6f, 1.15f, 0.36f},
@@ -226,7 +229,7 @@ void addStillLights(Scene& scene) {
 
 /// Where a firefly hovers: most of them over the grass and the water that the eye rests on, some about the trees.
 vec3 hover(Random& random) {
-    const uint32_t kind = random.below(20);
+    const uint32_t kind = random.below(22);
     const auto aboveGround = [&](vec2 at, float low, float high) {
         const float height = std::max(groundHeight(at), kWaterLevel);
         const float share = between(random, 0, 1);
@@ -243,12 +246,13 @@ vec3 hover(Random& random) {
 }
 
 void addFireflies(Scene& scene, uint32_t count, Random random) {
-    constexpr std::array<vec3, 3> kColors = {vec3{0.72f, 1, 0.2f}, {0.95f, 0.95f, 0.25f}, {1, 0.78f, 0.28f}};
-    const uint32_t body = addMesh(scene, shapes::bead(1), "firefly");
+    constexpr std::array<vec3, 3> kColors = {vec3{0.62f, 1, 0.12f}, {0.9f, 0.95f, 0.14f}, {1, 0.7f, 0.16f}};
+    const uint32_t far = addMesh(scene, shapes::bead(1), "far firefly");
+    const uint32_t near = addMesh(scene, shapes::sphere(1, 6, 4), "near firefly");
     std::array<uint32_t, kColors.size()> glows{};
     for (size_t i = 0; i < kColors.size(); ++i) {
         Material material = matte("firefly", vec3(0));
-        material.emissive = 5.0f * kColors[i];
+        material.emissive = 1.9f * kColors[i];
         glows[i] = addMaterial(scene, material);
     }
     // However many there are, the garden stays about as bright.
@@ -261,9 +265,10 @@ void addFireflies(Scene& scene, uint32_t count, Random random) {
         const std::string name = fmt::format("firefly {}", i);
         scene.lights.push_back({.name = name,
                                 .positionWorld = at,
-                                .color = 0.075f * vigour * kColors[kind],
-                                .range = 1.5f * std::sqrt(crowd)});
-        addObject(scene, name, body, glows[kind], placed(at, 0, 0.009f + 0.008f * vigour));
+                                .color = 0.055f * vigour * kColors[kind],
+                                .range = 1.3f * std::sqrt(crowd)});
+        const float distance = glm::distance(at, kEye);
+        addObject(scene, name, distance < 5 ? near : far, glows[kind], placed(at, 0, 0.006f + 0.007f * vigour));
     }
 }
 
@@ -281,6 +286,7 @@ Scene makeFireflies(const FirefliesOptions& options) {
     addBuilt(scene);
     addStillLights(scene);
     addFireflies(scene, options.lights, stream(7));
+    scene.exposureEv = 0.4f;
     scene.cameras.push_back({.name = "garden", .worldFromView = lookAt(kEye, {0.25f, 1.05f, -1.5f}), .yFov = 0.74f});
     return scene;
 }

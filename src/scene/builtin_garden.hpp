@@ -33,8 +33,8 @@ struct Tree {
     Mesh wood;
     Mesh leaves;
 };
-/// \param tint colour of the leaves, varied from leaf to leaf
-Tree tree(Random random, float height, vec3 tint);
+/// \param tint colour of the leaves, varied from leaf to leaf; \param levels how often its limbs fork, 5 for a near one
+Tree tree(Random random, float height, vec3 tint, int levels);
 
 /// A stone lantern: the stone, and the paper in its windows. Its flame burns at kFlameHeight.
 struct Lantern {

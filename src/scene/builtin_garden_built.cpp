@@ -47,8 +47,8 @@ Lantern lantern() {
                                             {0.075f, 1.58f},   {0.02f, 1.65f},  {0, 1.67f}};
     constexpr float kHalf = 0.19f, kLow = 0.8f, kHigh = 1.16f, kPost = 0.045f;
     Lantern made;
-    made.stone = shapes::lathe(shapes::smoothProfile(kFoot, 3), 28);
-    shapes::append(made.stone, shapes::lathe(shapes::smoothProfile(kJewel, 3), 20));
+    made.stone = shapes::lathe(shapes::smoothProfile(kFoot, 2), 24);
+    shapes::append(made.stone, shapes::lathe(shapes::smoothProfile(kJewel, 2), 16));
     for (int i = 0; i < 4; ++i) {
         const mat4 turn = turned(kQuarter * float(i));
         shapes::append(made.stone, roofSide(0.42f, kHigh, 1.4f), turn);

@@ -39,7 +39,7 @@ float groundHeight(vec2 xz) {
 vec2 pathAt(float t) { return {glm::mix(0.35f, -1.15f, t) + 0.35f * std::sin(2.6f * t), glm::mix(5.4f, 1.7f, t)}; }
 
 Mesh ground() {
-    constexpr int kCells = 84;
+    constexpr int kCells = 56;
     const auto height = [](double u, double v) {
         // Finer near the middle: the cubic keeps half of the cells within a quarter of the width.
         const auto spread = [](double s) { return 26 * (0.35 * s + 0.65 * s * s * s); };
@@ -50,7 +50,7 @@ Mesh ground() {
     paint(mesh, [](const Vertex& v) {
         const float wet = 1 - glm::smoothstep(0.95f, 1.35f, pondEdge({v.position.x, v.position.z}));
         const float patchy = 0.5f + 0.5f * std::sin(2.3f * v.position.x + std::sin(1.7f * v.position.z));
-        return glm::mix(glm::mix(vec3(0.06f, 0.1f, 0.03f), vec3(0.1f, 0.13f, 0.04f), patchy),
+        return glm::mix(glm::mix(vec3(0.035f, 0.06f, 0.02f), vec3(0.06f, 0.085f, 0.025f), patchy),
                         vec3(0.07f, 0.06f, 0.045f), wet);
     });
     return mesh;
@@ -66,10 +66,11 @@ Mesh water() {
             y += 0.009 / std::hypot(wave.x, wave.y) * std::sin(wave.x * x + wave.y * z + wave.z);
         return dvec3(x, y, z);
     };
-    Mesh mesh = shapes::patch(60, 80, surface, {9, 12});
+    Mesh mesh = shapes::patch(44, 56, surface, {9, 12});
     // What lies far away mirrors more of the sky.
     paint(mesh, [](const Vertex& v) {
-        return glm::mix(vec3(0.3f, 0.36f, 0.42f), vec3(1, 0.95f, 1), glm::smoothstep(2.0f, -7.0f, v.position.z));
+        return glm::mix(vec3(0.22f, 0.27f, 0.34f), vec3(0.85f, 0.8f, 0.9f),
+                        1 - glm::smoothstep(-8.0f, 1.5f, v.position.z));
     });
     return mesh;
 }
@@ -81,7 +82,7 @@ Mesh sky(vec3 glow) {
         return kRadius * dvec3(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
                                std::cos(latitude) * std::sin(longitude));
     };
-    Mesh mesh = shapes::patch(64, 28, dome, {1, 1});
+    Mesh mesh = shapes::patch(48, 20, dome, {1, 1});
     paint(mesh, [&](const Vertex& v) {
         const vec3 direction = glm::normalize(v.position);
         const float up = std::max(direction.y, 0.0f);
@@ -108,7 +109,7 @@ Mesh hills(float distance, float height, Random random) {
         const double radius = distance - 6 * (1 - v);
         return dvec3(radius * std::cos(angle), height * std::max(crest, 0.1) * v - 1 + v, radius * std::sin(angle));
     };
-    return shapes::patch(160, 2, slope, {160, 2});
+    return shapes::patch(280, 1, slope, {280, 1});
 }
 
 }  // namespace luciole::garden

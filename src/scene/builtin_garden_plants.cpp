@@ -75,7 +75,8 @@ void addLeaf(Mesh& mesh, vec3 root, vec3 along, vec3 normal, float size, vec3 co
 /// Grows one tree: limbs that fork and thin out, leaves around the thin ones.
 class Grower {
 public:
-    Grower(Random random, float height, vec3 tint) : random_(random), height_(height), tint_(tint) {}
+    Grower(Random random, float height, vec3 tint, int levels)
+        : random_(random), height_(height), tint_(tint), levels_(levels) {}
 
     Tree grow() {
         const float girth = 0.034f * height_;
@@ -85,18 +86,20 @@ public:
     }
 
 private:
-    static constexpr int kLevels = 5;
-
     void limb(vec3 from, vec3 direction, float length, float radius, int level) {
         const vec3 bent = glm::normalize(direction + 0.25f * unitVector(random_));
         const vec3 middle = from + 0.5f * length * direction, to = middle + 0.5f * length * bent;
         const int segments = level < 2 ? 9 : level < 4 ? 5 : 3;
         const float end = radius * 0.68f;
-        shapes::append(tree_.wood,
-                       shapes::limb(from, middle, radius * (level == 0 ? 1.5f : 1.0f), 0.84f * radius, segments));
-        shapes::append(tree_.wood, shapes::limb(middle, to, 0.84f * radius, end, segments));
-        if (level >= kLevels - 2) leaves(middle, to);
-        if (level == kLevels) return;
+        if (level < levels_ - 1) {
+            const float knee = 0.84f * radius, foot = radius * (level == 0 ? 1.5f : 1.0f);
+            shapes::append(tree_.wood, shapes::limb(from, middle, foot, knee, segments));
+            shapes::append(tree_.wood, shapes::limb(middle, to, knee, end, segments));
+        } else {
+            shapes::append(tree_.wood, shapes::limb(from, to, radius, end, segments));
+        }
+        if (level >= levels_ - 2) leaves(middle, to);
+        if (level == levels_) return;
         const int forks = level == 0 ? 4 : level < 3 ? 3 : 2;
         const float start = between(random_, 0, 2 * kPi);
         for (int i = 0; i < forks; ++i)
@@ -114,9 +117,11 @@ private:
     }
 
     void leaves(vec3 from, vec3 to) {
-        constexpr int kPerLimb = 9;
+        // A coarser tree has fewer limbs and larger leaves.
+        const int perLimb = levels_ < 5 ? 13 : 12;
+        const float size = (levels_ < 5 ? 0.034f : 0.026f) * height_;
         const vec3 heart(0, 0.62f * height_, 0);
-        for (int i = 0; i < kPerLimb; ++i) {
+        for (int i = 0; i < perLimb; ++i) {
             const vec3 root = glm::mix(from, to, between(random_, 0, 1)) + 0.028f * height_ * unitVector(random_);
             // Leaves face outwards from the crown, so that its shape shows in the light.
             const vec3 normal = glm::normalize(glm::normalize(root - heart) + 0.5f * kUp + 0.7f * unitVector(random_));
@@ -125,14 +130,14 @@ private:
             const vec3 color =
                 tint_ * depth *
                 vec3(between(random_, 0.7, 1.15), between(random_, 0.7, 1.15), between(random_, 0.7, 1.1));
-            addLeaf(tree_.leaves, root, along, normal, 0.034f * height_ * between(random_, 0.8, 1.4),
-                    glm::min(color, vec3(1)));
+            addLeaf(tree_.leaves, root, along, normal, size * between(random_, 0.8, 1.5), glm::min(color, vec3(1)));
         }
     }
 
     Random random_;
     float height_;
     vec3 tint_;
+    int levels_;
     Tree tree_;
 };
 
@@ -140,10 +145,10 @@ private:
 
 Mesh grassTuft(Random random) {
     Mesh mesh;
-    for (int i = 0; i < 26; ++i) {
+    for (int i = 0; i < 14; ++i) {
         const vec3 root = 0.16f * std::sqrt(between(random, 0, 1)) * around(random);
         const vec3 light = glm::mix(vec3(0.12f, 0.24f, 0.05f), vec3(0.3f, 0.34f, 0.1f), between(random, 0, 1));
-        addBlade(mesh, root, around(random), between(random, 0.16, 0.42), between(random, 0.010, 0.018),
+        addBlade(mesh, root, around(random), between(random, 0.16, 0.42), between(random, 0.011, 0.02),
                  between(random, 0.15, 0.7), 3, 0.25f * light, light);
     }
     return mesh;
@@ -171,9 +176,9 @@ Mesh stone(Random random) {
         for (const vec4 bump : bumps) radius += 0.055 * std::sin(glm::dot(dvec3(bump), n) + double(bump.w));
         return radius * n * dvec3(1, 0.62, 0.85);
     };
-    Mesh mesh = shapes::patch(18, 11, surface, {6, 3});
+    Mesh mesh = shapes::patch(14, 8, surface, {6, 3});
     for (Vertex& vertex : mesh.vertices) {
-        const float moss = glm::smoothstep(0.35f, 0.9f, vertex.normal.y + 0.2f * std::sin(7 * vertex.position.x));
+        const float moss = glm::smoothstep(0.55f, 1.25f, vertex.normal.y + 0.35f * std::sin(7 * vertex.position.x));
         vertex.color = vec4(glm::mix(vec3(0.2f, 0.19f, 0.185f), vec3(0.12f, 0.19f, 0.06f), moss), 1);
     }
     return mesh;
@@ -206,6 +211,6 @@ Mesh lotus() {
     return mesh;
 }
 
-Tree tree(Random random, float height, vec3 tint) { return Grower(random, height, tint).grow(); }
+Tree tree(Random random, float height, vec3 tint, int levels) { return Grower(random, height, tint, levels).grow(); }
 
 }  // namespace luciole::garden

@@ -27,7 +27,7 @@ struct Fineness {
     int detail = 0;  ///< triangles grow with its square
     int segments() const { return 5 + detail; }
     int steps() const { return 1 + detail / 8; }            ///< between two points of a profile
-    int archSteps() const { return 2 * (2 + detail / 3); }  ///< even, see shapes::niche
+    int archSteps() const { return 2 * (2 + detail / 2); }  ///< even, see shapes::niche
     bool furnished() const { return detail >= 3; }
 };
 
@@ -86,7 +86,7 @@ HallMaterials addHallMaterials(Scene& scene) {
 mat4 facingNave(float side, vec3 position) { return placed(position, side < 0 ? float(kPi) / 2 : -float(kPi) / 2); }
 
 Mesh columnMesh(const Fineness& fine) {
-    constexpr std::array<vec2, 4> kPlain = {vec2{0.5f, 0.3f}, {0.42f, 0.6f}, {0.36f, 4.0f}, {0.55f, 4.4f}};
+    constexpr std::array<vec2, 4> kPlain = {vec2{0.5f, 0.25f}, {0.42f, 0.6f}, {0.36f, 4.0f}, {0.55f, 4.4f}};
     constexpr std::array<vec2, 27> kTurned = {
         vec2{0.54f, 0.25f}, {0.56f, 0.31f},  {0.54f, 0.37f}, {0.54f, 0.37f}, {0.49f, 0.38f}, {0.47f, 0.43f},
         {0.49f, 0.48f},     {0.49f, 0.48f},  {0.51f, 0.5f},  {0.52f, 0.54f}, {0.49f, 0.58f}, {0.49f, 0.58f},
@@ -180,67 +180,82 @@ Mesh benchMesh() {
     return mesh;
 }
 
-void addShell(Scene& scene, const HallMaterials& material, const Fineness& fine) {
-    const float length = kBay * float(fine.bays);
+/// Calls `use(side, name)` for the left and the right of the nave.
+template <class Use>
+void onBothSides(const Use& use) {
+    use(-1.0f, "left");
+    use(1.0f, "right");
+}
+
+void addColumns(Scene& scene, const HallMaterials& material, const Fineness& fine) {
     const uint32_t column = addMesh(scene, columnMesh(fine), "column");
-    const uint32_t arcade = addMesh(scene, arcadeMesh(fine), "arcade");
-    const uint32_t wall = addMesh(scene, outerWallMesh(fine), "wall");
-    const uint32_t pilaster = addMesh(scene, pilasterMesh(), "pilaster");
-    const uint32_t rib = addMesh(scene, ribMesh(fine), "rib");
+    for (int i = 0; i <= fine.bays; ++i)
+        onBothSides([&](float side, const char* where) {
+            addObject(scene, fmt::format("column {} {}", where, i), column, material.marble,
+                      placed({side * kColumnX, 0, -kBay * float(i)}, (2 * float(i) + side) * float(kPi) / 2));
+        });
+}
+
+void addBays(Scene& scene, const HallMaterials& material, const Fineness& fine) {
     const shapes::Arch vaultArch{.radius = kNaveX, .spring = kCornice, .foot = kCornice, .steps = fine.archSteps()};
     const uint32_t vault = addMesh(scene, shapes::archLining(vaultArch, kBay, false), "vault");
-    const uint32_t cornice =
-        addMesh(scene, shapes::box({-length / 2, kCornice - 0.22f, -0.05f}, {length / 2, kCornice, 0.2f}), "cornice");
-    const uint32_t ceiling = addMesh(
-        scene, shapes::rectangle({0, kAisleTop, 0}, {0, 0, -length}, {kWallX - kColumnX, 0, 0}), "aisle ceiling");
-    const float aisle = kWallX - kColumnX - kHalfArcade;
-    const uint32_t beam = addMesh(scene, shapes::box({0, -0.34f, -0.13f}, {aisle, 0, 0.13f}), "beam");
-
-    for (int i = 0; i <= fine.bays; ++i) {
-        const float z = -kBay * float(i);
-        if (fine.furnished()) addObject(scene, fmt::format("rib {}", i), rib, material.stone, placed({0, 0, z}));
-        for (const float side : {-1.0f, 1.0f}) {
-            const char* where = side < 0 ? "left" : "right";
-            // Each column shows another part of the marble's pattern.
-            const float turn = float(i * 4 + (side < 0 ? 1 : 3)) * float(kPi) / 2;
-            addObject(scene, fmt::format("column {} {}", where, i), column, material.marble,
-                      placed({side * kColumnX, 0, z}, turn));
-            if (fine.furnished())
-                addObject(scene, fmt::format("pilaster {} {}", where, i), pilaster, material.stone,
-                          facingNave(side, {side * kWallX, 0, z}));
-        }
-    }
+    const uint32_t arcade = addMesh(scene, arcadeMesh(fine), "arcade");
+    const uint32_t wall = addMesh(scene, outerWallMesh(fine), "wall");
     for (int i = 0; i < fine.bays; ++i) {
         const float end = -kBay * float(i), middle = end - kBay / 2;
         addObject(scene, fmt::format("vault {}", i), vault, material.plaster, placed({0, 0, end}));
-        for (const float side : {-1.0f, 1.0f}) {
-            const char* where = side < 0 ? "left" : "right";
+        onBothSides([&](float side, const char* where) {
             addObject(scene, fmt::format("arcade {} {}", where, i), arcade, material.stone,
                       facingNave(side, {side * kColumnX, 0, middle}));
             addObject(scene, fmt::format("wall {} {}", where, i), wall, material.stone,
                       facingNave(side, {side * kWallX, 0, middle}));
-            for (int k = 0; fine.furnished() && k < 3; ++k) {
-                const float inner = side < 0 ? -kWallX : kColumnX + kHalfArcade;
-                addObject(scene, fmt::format("beam {} {}", where, 3 * i + k), beam, material.wood,
-                          placed({inner, kAisleTop, end - kBay * (float(k) + 0.5f) / 3}));
-            }
-        }
+        });
     }
-    for (const float side : {-1.0f, 1.0f}) {
-        const char* where = side < 0 ? "left" : "right";
+}
+
+/// Ribs of the vault, pilasters along the outer walls, beams under the ceilings of the aisles.
+void addTrim(Scene& scene, const HallMaterials& material, const Fineness& fine) {
+    constexpr int kBeamsPerBay = 3;
+    const uint32_t rib = addMesh(scene, ribMesh(fine), "rib");
+    const uint32_t pilaster = addMesh(scene, pilasterMesh(), "pilaster");
+    const uint32_t beam =
+        addMesh(scene, shapes::box({0, -0.34f, -0.13f}, {kWallX - kColumnX - kHalfArcade, 0, 0.13f}), "beam");
+    for (int i = 0; i <= fine.bays; ++i) {
+        const float z = -kBay * float(i);
+        addObject(scene, fmt::format("rib {}", i), rib, material.stone, placed({0, 0, z}));
+        onBothSides([&](float side, const char* where) {
+            addObject(scene, fmt::format("pilaster {} {}", where, i), pilaster, material.stone,
+                      facingNave(side, {side * kWallX, 0, z}));
+        });
+    }
+    for (int i = 0; i < fine.bays * kBeamsPerBay; ++i)
+        onBothSides([&](float side, const char* where) {
+            const float inner = side < 0 ? -kWallX : kColumnX + kHalfArcade;
+            addObject(scene, fmt::format("beam {} {}", where, i), beam, material.wood,
+                      placed({inner, kAisleTop, -kBay * (float(i) + 0.5f) / kBeamsPerBay}));
+        });
+}
+
+/// What runs along the whole hall, and its two ends.
+void addEnds(Scene& scene, const HallMaterials& material, const Fineness& fine) {
+    const float length = kBay * float(fine.bays);
+    const uint32_t cornice =
+        addMesh(scene, shapes::box({-length / 2, kCornice - 0.22f, -0.05f}, {length / 2, kCornice, 0.2f}), "cornice");
+    const uint32_t ceiling = addMesh(
+        scene, shapes::rectangle({0, kAisleTop, 0}, {0, 0, -length}, {kWallX - kColumnX, 0, 0}), "aisle ceiling");
+    onBothSides([&](float side, const char* where) {
         addObject(scene, fmt::format("cornice {}", where), cornice, material.marble,
                   facingNave(side, {side * kNaveX, 0, -length / 2}));
         addObject(scene, fmt::format("aisle ceiling {}", where), ceiling, material.plaster,
                   placed({side < 0 ? -kWallX : kColumnX, 0, 0}));
-    }
-    const shapes::Arch apse{.radius = 2.6f, .spring = 4, .foot = 0.6f, .steps = fine.archSteps()};
-    Mesh end = shapes::archedWall(apse, 2 * kWallX, 0, kTop);
-    shapes::append(end, shapes::niche(apse));
-    if (fine.furnished()) shapes::append(end, shapes::archMoulding(apse, 0.3f, 0.14f, 2 + fine.detail / 4));
-    addObject(scene, "apse", addMesh(scene, std::move(end), "apse"), material.stone, placed({0, 0, -length}));
-    addObject(scene, "entrance",
-              addMesh(scene, shapes::rectangle({kWallX, 0, 0}, {-2 * kWallX, 0, 0}, {0, kTop, 0}), "entrance"),
-              material.stone);
+    });
+    const shapes::Arch arch{.radius = 2.6f, .spring = 4, .foot = 0.6f, .steps = fine.archSteps()};
+    Mesh apse = shapes::archedWall(arch, 2 * kWallX, 0, kTop);
+    shapes::append(apse, shapes::niche(arch));
+    if (fine.furnished()) shapes::append(apse, shapes::archMoulding(arch, 0.3f, 0.14f, 2 + fine.detail / 4));
+    addObject(scene, "apse", addMesh(scene, std::move(apse), "apse"), material.stone, placed({0, 0, -length}));
+    const Mesh entrance = shapes::rectangle({kWallX, 0, 0}, {-2 * kWallX, 0, 0}, {0, kTop, 0});
+    addObject(scene, "entrance", addMesh(scene, entrance, "entrance"), material.stone);
 }
 
 /// Things that stand around. \return where lights can't hang, the columns included
@@ -320,7 +335,10 @@ struct Hall {
 Hall makeBuilding(const Fineness& fine, uint32_t seed) {
     Hall hall;
     hall.materials = addHallMaterials(hall.scene);
-    addShell(hall.scene, hall.materials, fine);
+    addColumns(hall.scene, hall.materials, fine);
+    addBays(hall.scene, hall.materials, fine);
+    if (fine.furnished()) addTrim(hall.scene, hall.materials, fine);
+    addEnds(hall.scene, hall.materials, fine);
     hall.solids = addFurniture(hall.scene, hall.materials, fine, seed);
     return hall;
 }
@@ -343,8 +361,8 @@ Fineness fit(uint32_t triangles, uint32_t seed) {
 
 Scene makeHall(const HallOptions& options) {
     constexpr uint32_t kLampTriangles = 8;
-    constexpr double kLampShare = 0.1;   // of the triangles
-    constexpr double kBrightness = 0.2;  // radiance; shows as a middle grey at exposure 0
+    constexpr double kLampShare = 0.1;    // of the triangles
+    constexpr double kBrightness = 0.18;  // radiance; shows as a middle grey at exposure 0
     const auto lamps = std::min(options.lights, uint32_t(options.triangles * kLampShare / kLampTriangles));
     const uint32_t triangles = options.triangles - lamps * kLampTriangles;
     const Fineness fine = fit(triangles, options.seed);
@@ -353,7 +371,7 @@ Scene makeHall(const HallOptions& options) {
 
     const Camera camera = hallCamera(fine);
     scene.cameras.push_back(camera);
-    scene.ambience = {.sky = {0.010f, 0.013f, 0.022f}, .ground = {0.012f, 0.009f, 0.007f}};
+    scene.ambience = {.sky = {0.016f, 0.02f, 0.034f}, .ground = {0.022f, 0.016f, 0.012f}};
     addHallLights(scene, options, fine.bays, solids, vec3(camera.worldFromView[3]), lamps);
     if (scene.lights.empty()) return scene;
 

@@ -26,7 +26,7 @@ struct HallSolid {
     float top;
 };
 
-/// Hangs `options.lights` lights of intensity 1 in the hall, none of them within a solid or close to `eye`.
+/// Hangs `options.lights` lights of about intensity 1 in the hall, none of them within a solid or close to `eye`.
 /// \param lamps so many lights, the first ones, get a small glowing body
 void addHallLights(Scene& scene, const HallOptions& options, int bays, const std::vector<HallSolid>& solids, vec3 eye,
                    uint32_t lamps);

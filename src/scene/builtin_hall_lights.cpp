@@ -26,53 +26,69 @@ struct Lamp {
     uint32_t color = 0;  ///< index into kPalette
 };
 
-Lamp pointLamp(vec3 position, uint32_t color) { return {{.positionWorld = position}, color}; }
+Lamp pointLamp(vec3 position, uint32_t color, float vigour) {
+    return {{.positionWorld = position, .color = vigour * kPalette[color]}, color};
+}
 
 Lamp spotLamp(vec3 position, vec3 target, float outerCone, uint32_t color) {
     return {{.type = LightType::spot,
              .positionWorld = position,
              .directionWorld = glm::normalize(target - position),
+             .color = kPalette[color],
              .innerConeAngle = 0.4f * outerCone,
              .outerConeAngle = outerCone},
             color};
 }
 
-/// The kinds of places follow each other in turn, so that any number of lights is spread over all of them.
+/// The kinds of places follow each other in turn, so that any number of lights is spread over all of them. Lamps close
+/// to a surface are weaker, or it would be burnt out.
 Lamp hang(uint32_t i, float length, int bays, Random& random) {
     const auto between = [&](double low, double high) { return float(random.between(low, high)); };
+    const uint32_t warm = kWarm + random.below(4), cool = kCool + random.below(3);
     const float side = random.below(2) == 0 ? -1.0f : 1.0f;
     // The golden ratio's multiples spread evenly for any number of lights.
     const float along = float(std::fmod(0.29 + i * 0.6180339887498949 + random.between(0, 0.02), 1.0));
     const float z = -0.6f - along * (length - 1.2f);
-    const vec2 column(side * kColumnX, -kBay * std::round(along * float(bays)));
-    const float angle = between(0, 2 * kPi), out = between(0.85, 1.15);
-    const vec2 ring = column + out * vec2(std::cos(angle), std::sin(angle));
-    const float alcove = -kBay * (std::floor(along * float(bays)) + 0.5f);
+    const float bay = std::floor(along * float(bays));
+    const vec2 column(side * kColumnX, -kBay * (bay + float(random.below(2))));
+    const float angle = between(0, 2 * kPi);
+    const vec2 around(std::cos(angle), std::sin(angle));
+    constexpr uint32_t kInApse = 13;
+    // Small ranges would leave vault and walls dark: later lamps hang along them instead of in the open.
+    const bool crowded = i >= 1024;
+    if (i % 48 == kInApse)
+        return pointLamp({side * between(0.9, 1.8), between(1.4, 3.6), between(0.5, 1) - length}, warm, 0.8f);
     switch (i % 8) {
-        case 0:
-            return pointLamp({between(-2.6, 2.6), between(2.6, 5.2), z}, kWarm + random.below(4));
-        case 1:
-            return pointLamp({ring.x, between(1.2, 4), ring.y}, kWarm + random.below(4));
+        case 0: {
+            if (!crowded) return pointLamp({between(-2.4, 2.4), between(2.8, 5.4), z}, warm, 1.5f);
+            const float over = between(0, kPi), reach = kNaveX - between(0.3, 0.6);
+            return pointLamp({reach * std::cos(over), kCornice + reach * std::sin(over), z}, warm, 0.6f);
+        }
+        case 1: {
+            const vec2 ring = column + between(0.95, 1.35) * around;
+            return pointLamp({ring.x, between(1.2, 4), ring.y}, warm, 0.45f);
+        }
         case 2:
-            return pointLamp({side * between(4.8, 7.6), between(0.25, 2.8), z}, kCool + random.below(3));
+            if (!crowded) return pointLamp({side * between(4.8, 7.4), between(0.4, 2.8), z}, cool, 0.6f);
+            return pointLamp({side * (kWallX - between(0.3, 0.6)), between(0.2, kAisleTop - 0.5), z}, cool, 0.6f);
         case 3:
-            return pointLamp({between(-3, 3), between(0.18, 0.5), z}, kWarm + random.below(4));
+            return pointLamp({between(-3, 3), between(0.2, 0.55), z}, warm, 0.25f);
         case 4: {
             const float x = side * between(5.2, 7.2), y = kAisleTop - between(0.5, 0.9);
-            return spotLamp({x, y, z}, {x + between(-0.6, 0.6), 0, z + between(-0.6, 0.6)}, 0.65f,
-                            kCool + random.below(2));
+            return spotLamp({x, y, z}, {x + between(-0.6, 0.6), 0, z + between(-0.6, 0.6)}, 0.65f, cool);
         }
         case 5: {
-            const vec2 foot = column + 1.0f * vec2(std::cos(angle), std::sin(angle));
-            return spotLamp({foot.x, between(0.2, 0.4), foot.y}, {column.x, between(3.5, 5), column.y}, 0.5f,
-                            kWarm + random.below(4));
+            const vec2 foot = column + 1.05f * around;
+            return spotLamp({foot.x, between(0.2, 0.4), foot.y}, {column.x, between(3.5, 5), column.y}, 0.5f, warm);
         }
-        case 6:
-            return pointLamp({side * (kWallX - between(0.25, 0.6)), between(1.3, 3.2), alcove + between(-0.7, 0.7)},
-                             kCool + random.below(4));
+        case 6: {
+            const float alcove = -kBay * (bay + 0.5f);
+            return pointLamp({side * (kWallX - between(0.3, 0.8)), between(1.3, 3.2), alcove + between(-0.7, 0.7)},
+                             random.below(4) == 0 ? kRose : cool, 0.5f);
+        }
         default:
-            return pointLamp({side * between(2.6, 3.2), kCornice + between(0.15, 0.5), z},
-                             random.below(5) == 0 ? kRose : kWarm + random.below(4));
+            return pointLamp({side * between(1.8, 2.7), kCornice + between(0.3, 1.2), z},
+                             random.below(5) == 0 ? kRose : warm, 0.5f);
     }
 }
 
@@ -96,13 +112,12 @@ void addHallLights(Scene& scene, const HallOptions& options, int bays, const std
         glows[i] = addMaterial(scene, {.name = fmt::format("glow {}", i),
                                        .baseColor = vec4(0, 0, 0, 1),
                                        .metallic = 0,
-                                       .emissive = 6.0f * kPalette[i]});
+                                       .emissive = 1.8f * kPalette[i]});
     scene.lights.reserve(options.lights);
     for (uint32_t i = 0; i < options.lights; ++i) {
         Lamp lamp = hang(i, length, bays, random);
         while (!isFree(lamp.light.positionWorld, solids, length, eye)) lamp = hang(i, length, bays, random);
         lamp.light.name = fmt::format("lamp {}", i);
-        lamp.light.color = kPalette[lamp.color];
         if (i < lamps) addObject(scene, lamp.light.name, bead, glows[lamp.color], placed(lamp.light.positionWorld));
         scene.lights.push_back(std::move(lamp.light));
     }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -67,7 +69,7 @@ void addMetallicRoughnessRow(Scene& scene, uint32_t mesh) {
         const float roughness = metal ? 0.1f + 0.25f * float(column - 4) : 0.1f + 0.25f * float(column);
         addSphere(scene, mesh, 0, column,
                   {.name = fmt::format("metallic {}, roughness {:.2f}", metal ? 1 : 0, roughness),
-                   .baseColor = metal ? vec4(0.95f, 0.7f, 0.38f, 1) : vec4(0.4f, 0.42f, 0.45f, 1),
+                   .baseColor = metal ? vec4(0.95f, 0.7f, 0.38f, 1) : vec4(0.3f, 0.33f, 0.38f, 1),
                    .metallic = metal ? 1.0f : 0.0f,
                    .roughness = roughness});
     }
@@ -108,13 +110,8 @@ void addFunctionRow(Scene& scene, uint32_t mesh, int step, const FunctionRow& ro
 void addStage(Scene& scene, int steps) {
     const uint32_t stone = addMaterial(
         scene, {.name = "terrace", .baseColor = vec4(0.2f, 0.2f, 0.21f, 1), .metallic = 0, .roughness = 0.7f});
-    const uint32_t tiles = addMaterial(scene, {.name = "floor",
-                                               .surface = SurfaceShader::checker,
-                                               .baseColor = vec4(0.23f, 0.23f, 0.24f, 1),
-                                               .metallic = 0,
-                                               .roughness = 0.5f,
-                                               .proceduralColor = vec3(0.15f, 0.15f, 0.16f),
-                                               .proceduralScale = 1});
+    const uint32_t paper = addMaterial(
+        scene, {.name = "paper", .baseColor = vec4(0.11f, 0.12f, 0.14f, 1), .metallic = 0, .roughness = 0.9f});
     const float half = 0.5f * kSpacing * kColumns + 0.2f, back = -(float(steps) + 1) * kStepDepth;
     for (int step = 1; step < steps; ++step)
         addObject(scene, fmt::format("step {}", step),
@@ -123,7 +120,16 @@ void addStage(Scene& scene, int steps) {
                                       {half, float(step) * kStepHeight, -(float(step) - 0.5f) * kStepDepth}),
                           fmt::format("step {}", step)),
                   stone);
-    addObject(scene, "floor", addMesh(scene, shapes::rectangle({-40, 0, 40}, {80, 0, 0}, {0, 0, -80}), "floor"), tiles);
+    // Rises behind the terrace without an edge, as in a photographer's studio.
+    const auto backdrop = [=](double u, double v) {
+        constexpr double kFront = 14, kWall = -9, kBend = 5, kTop = 16;
+        const double x = 60 * (u - 0.5), along = v * (kFront - kWall + kPi / 2 * kBend + kTop);
+        if (along < kFront - kWall) return dvec3(x, 0, kFront - along);
+        const double angle = std::min((along - (kFront - kWall)) / kBend, kPi / 2);
+        const double above = std::max(along - (kFront - kWall) - kPi / 2 * kBend, 0.0);
+        return dvec3(x, kBend * (1 - std::cos(angle)) + above, kWall - kBend * std::sin(angle));
+    };
+    addObject(scene, "backdrop", addMesh(scene, shapes::patch(16, 64, backdrop, {60, 47}), "backdrop"), paper);
 }
 
 void addLights(Scene& scene) {
@@ -132,7 +138,7 @@ void addLights(Scene& scene) {
         {.name = "key",
          .type = LightType::directional,
          .directionWorld = glm::normalize(vec3(0.55f, -0.75f, -0.6f)),
-         .color = {2.6f, 2.5f, 2.35f}},
+         .color = {2.1f, 2.02f, 1.9f}},
         {.name = "warm lamp", .positionWorld = {5.5f, 4, 3}, .color = {34, 15, 5}, .range = 16},
         {.name = "cool lamp", .positionWorld = {-6, 6.5f, -2}, .color = {6, 13, 32}, .range = 16},
         {.name = "low lamp", .positionWorld = {-1.5f, 0.9f, 2.6f}, .color = {1.2f, 2.2f, 1.4f}, .range = 6},

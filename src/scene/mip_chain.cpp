@@ -45,7 +45,7 @@ private:
 /// Bytes that already are linear; counted in bytes, so that sums of a few are exact.
 struct LinearCodec {
     float decode(uint8_t byte) const { return float(byte); }
-    uint8_t encode(float value) const { return uint8_t(value + 0.5f); }
+    uint8_t encode(float value) const { return uint8_t(std::floor(value + 0.5f)); }
 };
 
 /// Which texels of the finer level a texel covers along one axis, and how much of its width each makes up.

@@ -39,13 +39,26 @@ LinkGroup resolve(const JsonNode& entry, Scene& scene) {
     return group;
 }
 
+/// Per material whether the entry asks for it. One node may hold a whole building, told apart by materials only.
+std::vector<bool> chosenMaterials(const JsonNode& entry, const Scene& scene) {
+    const auto patterns = entry.find("withMaterial");
+    std::vector<bool> chosen(scene.materials.size(), !patterns);
+    if (patterns) {
+        for (const size_t i : select(*patterns, "material", scene.materials)) chosen[i] = true;
+    }
+    return chosen;
+}
+
 }  // namespace
 
 void applyObjects(const JsonNode& list, Scene& scene) {
     for (const JsonNode& entry : list.elements()) {
-        entry.expectKeys({"match", "objectId"});
+        entry.expectKeys({"match", "withMaterial", "objectId"});
         const auto id = uint32_t(entry.at("objectId").integer(0, kMaxObjectId));
-        for (const size_t i : select(entry.at("match"), "object", scene.objects)) scene.objects[i].objectId = id;
+        const std::vector<bool> materials = chosenMaterials(entry, scene);
+        for (const size_t i : select(entry.at("match"), "object", scene.objects)) {
+            if (materials[scene.objects[i].material]) scene.objects[i].objectId = id;
+        }
     }
 }
 

@@ -81,9 +81,8 @@ struct Visibility::Impl {
     double startOf(dvec3 origin, dvec3 direction, double tMin) const;
 };
 
-/// What one query carries through Embree, which hands back a pointer to the first member.
-struct Visibility::Impl::Query {
-    QueryContext base;
+/// What one query carries through Embree, which hands back a pointer to the base.
+struct Visibility::Impl::Query : QueryContext {
     const Impl* impl;
     const Accept* accept;
     dvec3 origin, direction;
@@ -92,7 +91,7 @@ struct Visibility::Impl::Query {
 };
 
 void Visibility::Impl::filterHit(const RTCFilterFunctionNArguments* arguments) {
-    auto& query = *reinterpret_cast<Query*>(arguments->context);
+    auto& query = *static_cast<Query*>(arguments->context);
     const uint32_t object = RTCHitN_instID(arguments->hit, arguments->N, 0, 0);
     const uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
     const auto hit = query.impl->hitOf(object, triangle, query.origin, query.direction);
@@ -110,7 +109,6 @@ bool Visibility::Impl::isThere(const Hit& hit, const Query& query) const {
 }
 
 Visibility::Impl::Impl(const Scene& s) : scene(s), world(newScene(device.get())) {
-    if (!device) throw std::bad_alloc();
     for (const Object& object : scene.objects) {
         worldFromObject.emplace_back(object.worldFromObject);
         mirrored.push_back(determinant(dmat3(worldFromObject.back())) < 0);
@@ -203,13 +201,7 @@ Visibility& Visibility::operator=(Visibility&&) noexcept = default;
 
 std::optional<Hit> Visibility::closest(dvec3 origin, dvec3 direction, double tMin, const Accept& accept) const {
     if (impl_->isEmpty()) return std::nullopt;
-    Impl::Query query{.base = {},
-                      .impl = impl_.get(),
-                      .accept = &accept,
-                      .origin = origin,
-                      .direction = direction,
-                      .tMin = tMin,
-                      .best = std::nullopt};
+    Impl::Query query{{}, impl_.get(), &accept, origin, direction, tMin, std::nullopt};
     const vec3 from = vec3(origin + impl_->startOf(origin, direction, tMin) * direction);
     const vec3 along = vec3(normalize(direction));
     RTCRayHit ray{};
@@ -228,14 +220,14 @@ std::optional<Hit> Visibility::closest(dvec3 origin, dvec3 direction, double tMi
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
-    rtcInitRayQueryContext(&query.base);
+    rtcInitRayQueryContext(&query);
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.context = &query.base;
+    arguments.context = &query;
     rtcIntersect1(impl_->world.get(), &ray, &arguments);
 #else
-    rtcInitIntersectContext(&query.base);
-    rtcIntersect1(impl_->world.get(), &query.base, &ray);
+    rtcInitIntersectContext(&query);
+    rtcIntersect1(impl_->world.get(), &query, &ray);
 #endif
     return query.best;
 }

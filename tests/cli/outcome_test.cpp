@@ -15,7 +15,7 @@ namespace {
 /// A failure as it has to look: its exit code, nothing on stdout, one line on stderr.
 Run failing(ErrorKind kind, const std::vector<std::string>& arguments,
             const std::vector<std::string>& environment = {}) {
-    const Run run = luciole(arguments, environment);
+    const Run run = runLuciole(arguments, environment);
     CHECK(run.exitCode == int(kind));
     CHECK(run.out.empty());
     CHECK(run.err.starts_with("luciole: error: "));
@@ -152,9 +152,9 @@ TEST_CASE("cli: without a driver, rendering ends with 5, and all that needs none
     const TemporaryFolder folder;
     failing(ErrorKind::device, {"render", "builtin:materials", "-q", "-o", folder / "a.png"}, withoutDrivers());
     CHECK(folder.count() == 0);
-    CHECK(luciole(renderTo(folder / "a.png", {"--size", "2x2"}), withoutDrivers()).exitCode == 0);
+    CHECK(runLuciole(renderTo(folder / "a.png", {"--size", "2x2"}), withoutDrivers()).exitCode == 0);
     CHECK(folder.count() == 1);
-    const Run devices = luciole({"devices", "--json"}, withoutDrivers());
+    const Run devices = runLuciole({"devices", "--json"}, withoutDrivers());
     CHECK(devices.exitCode == 0);
     CHECK(devices.out == "[]\n");
 }

@@ -15,7 +15,7 @@ using namespace luciole::test;
 namespace {
 
 std::string outputOf(const std::vector<std::string>& arguments) {
-    const Run run = luciole(arguments);
+    const Run run = runLuciole(arguments);
     CAPTURE(run.err);
     CHECK(run.exitCode == 0);
     return run.out;
@@ -114,8 +114,8 @@ TEST_CASE("cli: the command line wins over the settings file, and the file over 
 
 TEST_CASE("cli: a switch takes no word after it, so the scene may follow") {
     const TemporaryFolder folder;
-    const Run run = luciole({"render", "--measure", "builtin:materials", "--size", "1x1", "--lighting", "reference",
-                             "--json", "-o", folder / "a.png"});
+    const Run run = runLuciole({"render", "--measure", "builtin:materials", "--size", "1x1", "--lighting", "reference",
+                                "--json", "-o", folder / "a.png"});
     CHECK(nlohmann::json::parse(run.out)["settings"]["measure"] == "on");
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("cli: --stats prints its table on standard error, -q prints nothing") 
     auto with = [&](const char* option) {
         auto arguments = render;
         arguments.emplace_back(option);
-        return luciole(arguments);
+        return runLuciole(arguments);
     };
     CHECK(has(with("--stats").err, "triangles"));
     CHECK(with("--stats").out.empty());

@@ -82,7 +82,7 @@ std::vector<std::string> lucioleCommand(const std::vector<std::string>& argument
     return command;
 }
 
-Run luciole(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+Run runLuciole(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
     return Process(lucioleCommand(arguments), environment).wait();
 }
 

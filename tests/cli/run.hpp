@@ -32,7 +32,7 @@ private:
 };
 
 /// `luciole ARGUMENTS...` from start to end.
-Run luciole(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
+Run runLuciole(const std::vector<std::string>& arguments, const std::vector<std::string>& environment = {});
 
 /// `luciole` with its arguments, as words for a Process.
 std::vector<std::string> lucioleCommand(const std::vector<std::string>& arguments);

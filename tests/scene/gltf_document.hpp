@@ -94,8 +94,8 @@ struct Document {
     std::string text() {
         Json whole = json;
         if (!data.empty() && !whole.contains("buffers")) {
-            whole["buffers"] = {{{"byteLength", data.size()},
-                                 {"uri", "data:application/octet-stream;base64," + base64(data)}}};
+            whole["buffers"] = {
+                {{"byteLength", data.size()}, {"uri", "data:application/octet-stream;base64," + base64(data)}}};
         }
         if (!whole["bufferViews"][0].contains("byteLength")) whole["bufferViews"][0]["byteLength"] = data.size();
         return whole.dump();

@@ -1,100 +1,39 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
 
+#include "rig_scene.hpp"
 #include "scene/rig_values.hpp"
 #include "support.hpp"
 
 using namespace luciole;
+using namespace luciole::test;
 using doctest::Approx;
-using Json = nlohmann::json;
 
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Three objects with one mesh, two materials, two lights and a camera.
-Scene plainScene() {
-    Scene scene;
-    scene.meshes = {{.name = "triangle", .vertices = std::vector<Vertex>(3), .indices = {0, 1, 2}}};
-    scene.meshes[0].vertices[1].position = {4, 0, 0};
-    scene.meshes[0].vertices[2].position = {0, 2, -6};
-    scene.objects = {{.name = "curtain left", .objectId = 0},
-                     {.name = "curtain right", .objectId = 1},
-                     {.name = "floor", .material = 1, .objectId = 2}};
-    scene.materials = {{.name = "red cloth"}, {.name = "stone"}};
-    scene.texels = {{.name = "dot", .width = 1, .height = 1, .rgba = {1, 2, 3, 4}}};
-    scene.textures = {{}};
-    scene.materials[1].baseColorTexture.texture = 0;
-    scene.lights = {{.name = "lamp 1", .color = {2, 4, 1}}, {.name = "sun", .type = LightType::directional}};
-    scene.cameras = {{.name = "door"}};
-    return scene;
-}
-
-Scene rigged(const std::string& rig, Scene scene = plainScene()) {
-    applyRigText(scene, rig, "test.json");
-    return scene;
-}
-
-/// The message with which the rig is refused; the scene must be as before.
-std::string refusal(const std::string& rig, ErrorKind kind = ErrorKind::scene) {
-    Scene scene = plainScene();
-    try {
-        applyRigText(scene, rig, "test.json", LoadLimits{.maxJsonDepth = 32, .maxElements = 1000});
-    } catch (const Error& error) {
-        CHECK(error.kind() == kind);
-        const Scene before = plainScene();
-        CHECK(scene.lights.size() == before.lights.size());
-        CHECK(scene.functions.empty());
-        CHECK(scene.meshes.size() == 1);
-        CHECK(scene.texels.size() == 1);
-        CHECK(scene.textures.size() == 1);
-        CHECK(scene.materials.size() == 2);
-        CHECK(scene.lights[0].color == before.lights[0].color);
-        return error.what();
-    }
-    FAIL_CHECK("accepted: " << rig);
-    return {};
-}
-
 void checkColor(vec3 color, vec3 expected) {
     for (int i = 0; i < 3; ++i) CHECK(color[i] == Approx(expected[i]).epsilon(1e-6));  // float rounding
 }
 
-/// A rig that has every section and every key.
-const std::string kFullRig = R"({
-  "$schema": "rig.schema.json", "description": "everything",
-  "functions": [{"name": "half", "kind": "wrap", "parameter": 0.5},
-                {"name": "curve", "kind": "sampled", "samples": [[0, 0], [0.25, 1], [1, 1]]}],
-  "objects": [{"match": "curtain*", "objectId": 7}],
-  "linkGroups": [{"name": "cloth", "include": "curtain*", "exclude": ["floor"]}],
-  "materials": [
-    {"match": "red*", "equation": "shaped", "diffuseFunction": "half", "specularFunction": {"kind": "toon", "parameter": 2},
-     "kd": 0.5, "ks": 0.25, "specularColor": [1, 0.5, 0], "specularBlend": 0.75, "kAmbient": [0.1, 0.2, 0.3], "kEmissive": 2},
-    {"name": "tiles", "copyOf": "stone", "assignTo": "floor", "surface": "checker", "proceduralColor": "#000000",
-     "proceduralScale": 3, "baseColor": [1, 0.5, 0.25, 0.5], "metallic": 0.5, "roughness": 0.25, "emissive": [2, 0, 0],
-     "normalScale": 2, "occlusionStrength": 0.5, "doubleSided": true, "alphaMode": "mask", "alphaCutoff": 0.25}],
-  "lights": [
-    {"name": "key", "type": "spot", "position": [1, 2, 3], "target": [1, 0, 3], "color": [1, 0.5, 0.25], "intensity": 8,
-     "range": 5, "innerConeAngle": 30, "outerConeAngle": 60, "attenuation": "linear", "falloff": "lambert",
-     "contribution": "specularOnly", "linkGroup": "cloth"},
-    {"name": "moon", "type": "directional", "direction": [0, -2, 0], "infiniteViewer": true},
-    {"name": "spark", "type": "point", "scatter": {"count": 4, "seed": 9, "box": "bounds", "jitter": 0.5, "hue": [30, 60],
-     "saturation": 0.5, "intensity": [1, 2], "range": [3, 4]}},
-    {"match": "lamp*", "intensityScale": 0.5}, {"remove": "sun"}],
-  "ambience": {"sky": [0.1, 0.2, 0.3], "ground": [0, 0, 0], "up": [0, 3, 0]},
-  "cameras": [{"name": "nave", "eye": [0, 1, 5], "target": [0, 1, 0], "fov": 60, "near": 0.5},
-              {"name": "plan", "matrix": [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 9, 0, 1], "orthographic": 6, "near": 0, "far": 20}],
-  "exposure": -1.5
-})";
+/// The first block of JSON in docs/rig.md.
+std::string docsExample() {
+    std::ifstream stream(std::filesystem::path(LUCIOLE_SOURCE_DIR) / "docs" / "rig.md");
+    const std::string page(std::istreambuf_iterator<char>(stream), {});
+    const size_t begin = page.find("```json\n") + 8;
+    return page.substr(begin, page.find("```\n", begin) - begin);
+}
 
 }  // namespace
 
@@ -322,6 +261,13 @@ TEST_CASE("rig: later rigs replace functions, groups, materials and cameras of t
     CHECK(scene.cameras[2].yFov == Approx(kPi / 9));
 }
 
+TEST_CASE("rig: objects can be told apart by their materials") {
+    const Scene scene = rigged(R"({"objects": [{"match": "*", "withMaterial": "stone", "objectId": 9}]})");
+    CHECK(scene.objects[0].objectId == 0);
+    CHECK(scene.objects[1].objectId == 1);
+    CHECK(scene.objects[2].objectId == 9);
+}
+
 TEST_CASE("rig: a group whose objects share IDs with others says so") {
     const Scene scene = rigged(R"({"objects": [{"match": ["curtain left", "floor"], "objectId": 4}],
                                    "linkGroups": [{"name": "cloth", "exclude": "floor"}]})");
@@ -373,193 +319,6 @@ TEST_CASE("rig: lights on a line are evenly spaced and can all aim at one place"
     CHECK(one.lights[2].positionWorld == vec3(1, 2, 0));
 }
 
-TEST_CASE("rig: every fault is refused with its path, and the scene stays as it was") {
-    struct Fault {
-        const char* rig;
-        const char* message;  ///< start
-    };
-    const Fault faults[] = {
-        {"", "test.json: parse error at line 1, column 1"},
-        {"{\n \"lights\": [}", "test.json: parse error at line 2, column 13"},
-        {"[]", "test.json: /: expected an object, got an array of 0"},
-        {R"({"lihgts": []})", "test.json: /lihgts: unknown key; expected one of $schema, "},
-        {R"({"exposure": 1, "exposure": 2})", "test.json: key \"exposure\" is given twice in one object"},
-        {R"({"exposure": "bright"})", "test.json: /exposure: expected a number that fits into 32 bits, got \"bright\""},
-        {R"({"exposure": 1e39})", "test.json: /exposure: expected a number that fits into 32 bits, got 1e+39"},
-        {R"({"$schema": 1})", "test.json: /$schema: expected a string, got 1"},
-        {R"({"lights": {}})", "test.json: /lights: expected an array, got an object"},
-        {R"({"lights": [{"name": "a"}]})", "test.json: /lights/0: expected a key \"type\", got none"},
-        {R"({"lights": [{"type": "lamp"}]})",
-         "test.json: /lights/0/type: expected one of directional, point, spot, got \"lamp\""},
-        {R"({"lights": [{"type": "point"}]})", "test.json: /lights/0: expected a key \"position\", got none"},
-        {R"({"lights": [{"type": "directional"}]})", "test.json: /lights/0: expected a key \"direction\", got none"},
-        {R"({"lights": [{"type": "point", "position": [0, 1]}]})",
-         "test.json: /lights/0/position: expected three numbers, got an array of 2"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, "x"]}]})",
-         "test.json: /lights/0/position/2: expected a number that fits into 32 bits, got \"x\""},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "range": -1}]})",
-         "test.json: /lights/0/range: expected a number > 0, got -1"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "color": "red"}]})",
-         "test.json: /lights/0/color: expected a colour as \"#rrggbb\" or [r, g, b], got \"red\""},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "color": "#12345g"}]})",
-         "test.json: /lights/0/color: "},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "color": [1, -1, 1]}]})",
-         "test.json: /lights/0/color/1: expected a number >= 0, got -1"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "color": [9e37, 0, 0], "intensity": 9}]})",
-         "test.json: /lights/0: expected color times intensity to fit into 32 bits"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "attenuation": "linear"}]})",
-         "test.json: /lights/0: expected a range"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "range": 1, "attenuation": "curvy"}]})",
-         "test.json: /lights/0/attenuation: expected a built-in function"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "falloff": 3}]})",
-         "test.json: /lights/0/falloff: expected a function's name"},
-        {R"({"lights": [{"type": "point", "position": [0, 1, 2], "linkGroup": "cloth"}]})",
-         "test.json: /lights/0/linkGroup: expected the name of a link group (none), got \"cloth\""},
-        {R"({"lights": [{"type": "directional", "direction": [0, 0, 0]}]})",
-         "test.json: /lights/0/direction: expected a direction other than zero"},
-        {R"({"lights": [{"type": "directional", "direction": [0, 1, 0], "target": [0, 1, 0]}]})",
-         "test.json: /lights/0/target: expected either a direction or a target, got both"},
-        {R"({"lights": [{"type": "spot", "position": [0, 1, 0], "target": [0, 1, 0]}]})",
-         "test.json: /lights/0/target: expected a place other than the light's position"},
-        {R"({"lights": [{"type": "spot", "position": [0, 1, 0], "target": [0, 0, 0], "innerConeAngle": 50}]})",
-         "test.json: /lights/0: expected innerConeAngle < outerConeAngle, got 50 and 45"},
-        {R"({"lights": [{"type": "spot", "position": [0, 1, 0], "target": [0, 0, 0], "outerConeAngle": 190}]})",
-         "test.json: /lights/0/outerConeAngle: expected a number in [0, 180], got 190"},
-        {R"({"lights": [{"match": "lmp*", "intensity": 1}]})",
-         "test.json: /lights/0/match: pattern \"lmp*\" matches no light; there are: \"lamp 1\", \"sun\""},
-        {R"({"lights": [{"remove": ["sun", "moon"]}]})",
-         "test.json: /lights/0/remove/1: pattern \"moon\" matches no light"},
-        {R"({"lights": [{"remove": "sun", "color": [1, 1, 1]}]})", "test.json: /lights/0/color: unknown key"},
-        {R"({"lights": [{"match": []}]})", "test.json: /lights/0/match: expected at least one pattern"},
-        {R"({"lights": [{"match": 3}]})",
-         "test.json: /lights/0/match: expected a pattern or an array of patterns, got 3"},
-        {R"({"lights": [{"match": "*", "intensityScale": 1e38}, {"match": "*", "intensityScale": 1e38}]})",
-         "test.json: lights[0] \"lamp 1\": color: expected finite numbers >= 0, got (inf"},
-        {R"({"lights": [{"type": "point", "scatter": {"count": 0, "box": "bounds"}}]})",
-         "test.json: /lights/0/scatter/count: expected a whole number in [1, "},
-        {R"({"lights": [{"type": "point", "scatter": {"count": 2}}]})",
-         "test.json: /lights/0/scatter: expected a key \"box\", got none"},
-        {R"({"lights": [{"type": "point", "position": [0, 0, 0], "scatter": {"count": 2, "box": "bounds"}}]})",
-         "test.json: /lights/0/position: a scattered light takes its position"},
-        {R"({"lights": [{"type": "directional", "direction": [0, 0, 1], "scatter": {"count": 2, "box": "bounds"}}]})",
-         "test.json: /lights/0/scatter: a directional light has no place to scatter"},
-        {R"({"lights": [{"type": "point", "scatter": {"count": 2, "box": "bounds", "range": [3, 2]}}]})",
-         "test.json: /lights/0/scatter/range: expected [low, high] with low <= high, got [3, 2]"},
-        {R"({"lights": [{"type": "point", "scatter": {"count": 2, "box": "bounds", "colors": []}}]})",
-         "test.json: /lights/0/scatter/colors: expected at least one colour"},
-        {R"({"lights": [{"type": "point", "scatter": {"count": 2, "box": "bounds", "saturation": 1}}]})",
-         "test.json: /lights/0/scatter/saturation: saturation needs a hue"},
-        {R"({"functions": [{"kind": "lambert"}]})", "test.json: /functions/0: expected a key \"name\", got none"},
-        {R"({"functions": [{"name": "f", "kind": "wrapped"}]})",
-         "test.json: /functions/0/kind: expected one of lambert, "},
-        {R"({"functions": [{"name": "f", "kind": "wrap", "parameter": 2}]})",
-         "test.json: /functions/0/parameter: expected a number in [0, 1], got 2"},
-        {R"({"functions": [{"name": "f", "kind": "toon", "parameter": 1.5}]})",
-         "test.json: /functions/0/parameter: expected a whole number in [1, 65536], got 1.5"},
-        {R"({"functions": [{"name": "f", "kind": "lambert", "parameter": 1}]})",
-         "test.json: /functions/0/parameter: lambert has no parameter"},
-        {R"({"functions": [{"name": "f", "kind": "lambert", "samples": [0, 1]}]})",
-         "test.json: /functions/0/samples: only a sampled function has samples"},
-        {R"({"functions": [{"name": "f", "kind": "sampled", "samples": [1]}]})",
-         "test.json: /functions/0/samples: expected at least 2 samples"},
-        {R"({"functions": [{"name": "f", "kind": "sampled", "samples": [1, [1, 1]]}]})",
-         "test.json: /functions/0/samples/1: expected a number, as the first sample, got an array of 2"},
-        {R"({"functions": [{"name": "f", "kind": "sampled", "samples": [[1, 1], [1]]}]})",
-         "test.json: /functions/0/samples/1: expected [shape, cascade], as the first sample"},
-        {R"({"functions": [{"name": "f", "kind": "sampled", "samples": [1, 1], "parameter": 1}]})",
-         "test.json: /functions/0/parameter: a sampled function has no parameter"},
-        {R"({"objects": [{"match": "floor", "objectId": 65536}]})",
-         "test.json: /objects/0/objectId: expected a whole number in [0, 65535], got 65536"},
-        {R"({"linkGroups": [{"name": "g", "include": "wall*"}]})",
-         "test.json: /linkGroups/0/include: pattern \"wall*\" matches no object; there are: \"curtain left\", "},
-        {R"({"materials": [{"baseColor": [1, 1, 1]}]})", "test.json: /materials/0: expected a key \"name\", got none"},
-        {R"({"materials": [{"match": "stone", "assignTo": "floor"}]})",
-         "test.json: /materials/0/assignTo: unknown key"},
-        {R"({"materials": [{"match": "stone", "kd": 1}]})",
-         "test.json: /materials/0/kd: only for the equation \"shaped\", which material \"stone\" does not have"},
-        {R"({"materials": [{"match": "stone", "baseColor": [1, 1, 1, 2]}]})",
-         "test.json: /materials/0/baseColor/3: expected a number in [0, 1], got 2"},
-        {R"({"materials": [{"name": "a", "copyOf": "brick"}]})",
-         "test.json: /materials/0/copyOf: expected the name of a material (\"red cloth\", \"stone\"), got \"brick\""},
-        {R"({"materials": [{"match": "stone", "doubleSided": 1}]})",
-         "test.json: /materials/0/doubleSided: expected true or false, got 1"},
-        {R"({"ambience": {"ambient": [1, 1, 1], "sky": [1, 1, 1]}})",
-         "test.json: /ambience/sky: expected either ambient or sky and ground, got both"},
-        {R"({"ambience": {"up": [0, 0, 0]}})", "test.json: /ambience/up: expected a direction other than zero"},
-        {R"({"cameras": [{"name": "c"}]})", "test.json: /cameras/0: expected a key \"eye\", got none"},
-        {R"({"cameras": [{"name": "c", "eye": [0, 0, 0]}]})",
-         "test.json: /cameras/0: expected a key \"target\", got none"},
-        {R"({"cameras": [{"name": "c", "eye": [1, 0, 0], "target": [1, 0, 0]}]})",
-         "test.json: /cameras/0/target: expected a place other than the eye"},
-        {R"({"cameras": [{"name": "door", "fov": 180}]})",
-         "test.json: /cameras/0/fov: expected a number above 0 and below 180, got 180"},
-        {R"({"cameras": [{"name": "door", "fov": 50, "orthographic": 2}]})",
-         "test.json: /cameras/0/orthographic: expected either fov or orthographic, got both"},
-        {R"({"cameras": [{"name": "door", "near": 0}]})", "test.json: /cameras/0: expected near > 0"},
-        {R"({"cameras": [{"name": "door", "orthographic": 2, "near": 5, "far": 4}]})",
-         "test.json: /cameras/0: expected far > near, got 4 and 5"},
-        {R"({"cameras": [{"name": "door", "matrix": [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})",
-         "test.json: /cameras/0/matrix: expected a rotation and a translation"},
-        // The last section fails: what the earlier ones did must not show.
-        {R"({"functions": [{"name": "f", "kind": "lambert"}], "lights": [{"remove": "*"}], "exposure": null})",
-         "test.json: /exposure: expected a number"},
-    };
-    for (const Fault& fault : faults) {
-        CAPTURE(fault.message);
-        const std::string message = refusal(fault.rig);
-        CAPTURE(message);
-        CHECK(message.starts_with(fault.message));
-    }
-}
-
-TEST_CASE("rig: limits on nesting, array sizes and numbers of lights and functions are errors of their own kind") {
-    refusal(R"({"exposure": )" + std::string(5000, '[') + std::string(5000, ']') + "}", ErrorKind::limit);
-    std::string samples = "[0";
-    for (int i = 0; i < 1000; ++i) samples += ", 0";
-    refusal(R"({"functions": [{"name": "f", "kind": "sampled", "samples": )" + samples + "]}]}", ErrorKind::limit);
-    CHECK(refusal(R"({"lights": [{"type": "point", "scatter": {"count": 4000000000, "box": "bounds"}}]})",
-                  ErrorKind::limit) ==
-          "test.json: /lights/0: expected at most 1000 lights in the scene, got 4000000002");
-
-    Json functions = Json::array();
-    for (int i = 0; i < 1025; ++i) functions.push_back({{"name", fmt::format("f{}", i)}, {"kind", "lambert"}});
-    Scene scene = plainScene();
-    try {
-        applyRigText(scene, Json{{"functions", functions}}.dump(), "test.json");
-        FAIL_CHECK("accepted");
-    } catch (const Error& error) {
-        CHECK(error.kind() == ErrorKind::limit);
-        CHECK(std::string(error.what()) ==
-              "test.json: /functions/1024: expected at most 1024 functions in the scene, got 1025");
-    }
-}
-
-TEST_CASE("rig: every prefix of a rig is refused, and so is any value of a wrong type") {
-    const std::string text = kFullRig;
-    for (size_t length = 0; length < text.size(); ++length) {
-        Scene scene;
-        CHECK_THROWS_AS(applyRigText(scene, text.substr(0, length), "test.json"), Error);
-    }
-    const Json whole = Json::parse(text);
-    const Json flat = whole.flatten();
-    size_t tried = 0;
-    for (const auto& [pointer, before] : flat.items()) {
-        for (const Json& wrong :
-             {Json(), Json(true), Json(Json::object()), Json("?"), Json(-7.5), Json::array({Json::array()})}) {
-            Json changed = whole;
-            changed[Json::json_pointer(pointer)] = wrong;
-            Scene scene = plainScene();
-            try {
-                applyRigText(scene, changed.dump(), "test.json");
-            } catch (const Error& error) {
-                CHECK(std::string(error.what()).starts_with("test.json: /"));
-            }
-            ++tried;
-        }
-    }
-    CHECK(tried > 600);
-}
-
 TEST_CASE("rig: a file is read as its text would be, and a missing one is an input error") {
     const auto file = std::filesystem::temp_directory_path() / "luciole-rig-test.json";
     std::ofstream(file) << R"({"exposure": 2})";
@@ -578,6 +337,14 @@ TEST_CASE("rig: a file is read as its text would be, and a missing one is an inp
     }
 }
 
+TEST_CASE("rig: the example of the docs works") {
+    const Scene scene = rigged(docsExample());
+    CHECK(scene.lights.size() == 16);
+    CHECK(scene.linkGroups[0].litObjects[100]);
+    CHECK(scene.materials[scene.objects[2].material].roughness == 0.2f);
+    CHECK(scene.cameras.size() == 1);
+}
+
 TEST_CASE("rig: the schema accepts the examples and refuses what the reader refuses") {
     const std::filesystem::path root = LUCIOLE_SOURCE_DIR;
     if (std::system("python3 -c 'from jsonschema import Draft202012Validator' 2>/dev/null") != 0) {
@@ -588,6 +355,7 @@ TEST_CASE("rig: the schema accepts the examples and refuses what the reader refu
     std::filesystem::create_directories(folder / "good");
     std::filesystem::create_directories(folder / "bad");
     std::ofstream(folder / "good" / "full.json") << kFullRig;
+    std::ofstream(folder / "good" / "docs.json") << docsExample();
     const char* const bad[] = {
         R"({"lihgts": []})",
         R"({"lights": [{"type": "lamp"}]})",
@@ -619,7 +387,7 @@ Draft202012Validator.check_schema(schema)
 validator = Draft202012Validator(schema)
 good = glob.glob(root + "/examples/rigs/*.json") + glob.glob(folder + "/good/*.json")
 bad = glob.glob(folder + "/bad/*.json")
-assert len(good) >= 4 and bad
+assert len(good) >= 5 and bad
 faults = [f"{file}: {error.message}" for file in good for error in validator.iter_errors(json.load(open(file)))]
 faults += [f"{file}: accepted" for file in bad if validator.is_valid(json.load(open(file)))]
 print("\n".join(faults))
@@ -629,4 +397,26 @@ sys.exit(len(faults) > 0)
         fmt::format("python3 '{}' '{}' '{}'", (folder / "check.py").string(), root.string(), folder.string());
     CHECK(std::system(command.c_str()) == 0);
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("rig: the examples light the scenes that they were made for") {
+    LUCIOLE_ASSETS_OR_SKIP(assets);
+    const std::filesystem::path rigs = std::filesystem::path(LUCIOLE_SOURCE_DIR) / "examples" / "rigs";
+    Scene helmet = loadScene((assets / "DamagedHelmet" / "DamagedHelmet.glb").string());
+    applyRig(helmet, rigs / "helmet.json");
+    CHECK(helmet.lights.size() == 26);
+    CHECK(helmet.cameras[0].name == "portrait");
+
+    Scene sponza = loadScene((assets / "SponzaSmall" / "SponzaSmall.glb").string());
+    applyRig(sponza, rigs / "sponza.json");
+    CHECK(sponza.lights.size() == 155);
+    const Bounds bounds = boundsOf(sponza);
+    for (const Light& light : sponza.lights) {
+        CHECK(glm::all(glm::greaterThan(light.positionWorld, bounds.low)));
+        CHECK(glm::all(glm::lessThan(light.positionWorld, bounds.high)));
+    }
+    applyRig(sponza, rigs / "shaped.json");
+    CHECK(sponza.lights.size() == 155);
+    CHECK(std::count_if(sponza.materials.begin(), sponza.materials.end(),
+                        [](const Material& material) { return material.equation == LightEquation::shaped; }) == 9);
 }

@@ -18,7 +18,7 @@ vec3 shadingNormal(SurfaceConstants surface) {
     if (hasTexture(kTextureNormal)) {
         const vec3 t = normalize(tangentView.xyz);
         const vec3 b = cross(n, t) * tangentView.w;
-        vec3 m = texture(textureNormal, uvOf(surface.slots[kTextureNormal])).xyz * 2.0 - 1.0;
+        vec3 m = sampleTexture(textureNormal, surface, kTextureNormal).xyz * 2.0 - 1.0;
         m.xy *= surface.normalScale;
         n = normalize(t * m.x + b * m.y + n * m.z);
     }
@@ -29,7 +29,7 @@ void main() {
     const ObjectConstants object = objects[objectIndex];
     const SurfaceConstants surface = surfaces[object.material];
     const vec3 p = positionObject * surface.proceduralScale;
-    const vec3 width = max(abs(dFdx(p)), abs(dFdy(p)));
+    const vec3 width = max(abs(dFdx(positionObject)), abs(dFdy(positionObject))) * surface.proceduralScale;
     vec4 base = baseColor(surface);
     if (kSurfaceShader == kSurfaceChecker) base.rgb = mix(surface.proceduralColor, base.rgb, checker(p, width));
     if (kSurfaceShader == kSurfaceMarble) base.rgb = mix(base.rgb, surface.proceduralColor, marble(p));
@@ -45,13 +45,13 @@ void main() {
     s.material = object.material;
     s.objectId = object.objectId;
     if (hasTexture(kTextureMetallicRoughness)) {
-        const vec2 roughnessMetallic = texture(textureMetallicRoughness, uvOf(surface.slots[kTextureMetallicRoughness])).gb;
+        const vec2 roughnessMetallic = sampleTexture(textureMetallicRoughness, surface, kTextureMetallicRoughness).gb;
         s.roughness *= roughnessMetallic.x;
         s.specularBlend *= roughnessMetallic.y;
     }
     if (hasTexture(kTextureOcclusion))
-        s.occlusion += surface.occlusionStrength * (texture(textureOcclusion, uvOf(surface.slots[kTextureOcclusion])).r - 1.0);
-    if (hasTexture(kTextureEmissive)) s.Cs1 *= texture(textureEmissive, uvOf(surface.slots[kTextureEmissive])).rgb;
+        s.occlusion += surface.occlusionStrength * (sampleTexture(textureOcclusion, surface, kTextureOcclusion).r - 1.0);
+    if (hasTexture(kTextureEmissive)) s.Cs1 *= sampleTexture(textureEmissive, surface, kTextureEmissive).rgb;
     if (surface.equation == kEquationUnlit) s.Cs1 = base.rgb;
     s.Cs1 *= surface.cs1Factor;
 

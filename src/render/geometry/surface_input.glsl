@@ -21,14 +21,20 @@ layout(constant_id = 5) const uint kTextures = 0u;       // bit i: slot i has a 
 
 bool hasTexture(uint slot) { return (kTextures & (1u << slot)) != 0u; }
 
-vec2 uvOf(TextureSlot slot) {
-    const vec3 p = vec3(slot.uvSet == 0u ? uv.xy : uv.zw, 1);
-    return vec2(dot(slot.uRow, p), dot(slot.vRow, p));
+// Texture of `slot` at this pixel. Derivatives are taken of the interpolants alone: in pixels outside the triangle, which
+// only help with derivatives, Mesa's software driver (22.3) reads zeros from buffers.
+vec4 sampleTexture(sampler2D image, SurfaceConstants surface, uint slotIndex) {
+    const TextureSlot slot = surface.slots[slotIndex];
+    const vec2 p = slot.uvSet == 0u ? uv.xy : uv.zw;
+    const vec2 px = slot.uvSet == 0u ? dFdx(uv.xy) : dFdx(uv.zw);
+    const vec2 py = slot.uvSet == 0u ? dFdy(uv.xy) : dFdy(uv.zw);
+    return textureGrad(image, vec2(dot(slot.uRow, vec3(p, 1)), dot(slot.vRow, vec3(p, 1))),
+                       vec2(dot(slot.uRow.xy, px), dot(slot.vRow.xy, px)), vec2(dot(slot.uRow.xy, py), dot(slot.vRow.xy, py)));
 }
 
 // Base colour with alpha: factor * texture * vertex colour.
 vec4 baseColor(SurfaceConstants surface) {
     vec4 base = surface.baseColor * color;
-    if (hasTexture(kTextureBaseColor)) base *= texture(textureBaseColor, uvOf(surface.slots[kTextureBaseColor]));
+    if (hasTexture(kTextureBaseColor)) base *= sampleTexture(textureBaseColor, surface, kTextureBaseColor);
     return base;
 }

@@ -10,6 +10,6 @@ void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     const MaterialConstants m = materials[s.material];
     vec3 sum = vec3(0);
-    for (uint i = 0u; i < view.lightCount; ++i) sum += illuminate(s, m, lights[i]);
+    for (uint i = 0u; i < view.lightCount; ++i) sum += illuminate(s, m, lightAt(i));
     radiance = vec4(sum, 0);
 }

@@ -21,7 +21,7 @@ bool reaches(LightConstants light, Surface s) {
 void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     uint count = 0u;
-    for (uint i = 0u; i < view.lightCount; ++i) count += uint(reaches(lights[i], s));
+    for (uint i = 0u; i < view.lightCount; ++i) count += uint(reaches(lightAt(i), s));
     // materials[0] stands for "no surface", so the scene's indices are one lower.
     scalars = vec4(-s.P.z, float(s.material) - 1.0, float(s.objectId), float(count));
     normal = vec4(mat3(view.worldFromView) * s.N, 0);

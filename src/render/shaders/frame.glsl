@@ -16,4 +16,10 @@ layout(set = 0, binding = 3, scalar) readonly buffer Surfaces { SurfaceConstants
 layout(set = 0, binding = 4, scalar) readonly buffer Lights { LightConstants lights[]; };
 layout(set = 0, binding = 5, scalar) readonly buffer Links { uint links[]; };
 layout(set = 0, binding = 6) uniform sampler2D functions;
+layout(set = 0, binding = 7, scalar) uniform UniformLights { LightConstants uniformLights[kUniformLights]; };
+
+LightConstants lightAt(uint index) {
+    if ((kLights & kUsesUniformLights) != 0u) return uniformLights[index];
+    return lights[index];
+}
 #endif

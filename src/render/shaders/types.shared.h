@@ -114,6 +114,8 @@ const uint kUsesSpot = 4u;
 const uint kUsesCurves = 8u;         // an attenuation or falloff function
 const uint kUsesLinks = 16u;
 const uint kUsesContributions = 32u; // a diffuse-only, specular-only or infinite-viewer light
+const uint kUsesUniformLights = 64u; // all lights fit into a uniform buffer, the faster way to read them
+const uint kUniformLights = 910u;    // 64 KiB
 
 SHARED_END
 #endif

@@ -1,0 +1,117 @@
+#include <luciole/error.hpp>
+#include <luciole/reference.hpp>
+#include <luciole/scene_io.hpp>
+
+#include "device.hpp"
+#include "image_difference.hpp"
+#include "scene_building.hpp"
+#include "scenes.hpp"
+#include "support.hpp"
+
+using namespace luciole;
+using namespace luciole::test;
+
+namespace {
+
+const std::vector<std::string> kMaskLayers{"id", "material", "depth"};
+
+/// Bounds on the relative difference to the reference (image_difference.hpp), over pixels away from edges.
+struct Tolerance {
+    double mean, p999;
+};
+
+/// compact stores colours as squares of 8 bits: a relative step of 2 * (0.5 / 255) / sqrt(Cs) each, 2 % at Cs = 0.04.
+/// calver stores depth in 16 bits: lights close to a surface far from the near plane move (docs/gbuffer.md).
+/// float stores position in 11 significant bits: 0.05 % of the distance.
+Tolerance toleranceOf(GBufferLayout layout, bool textured) {
+    Tolerance tolerance{};
+    switch (layout) {
+        case GBufferLayout::calver: tolerance = {0.01, 0.25}; break;
+        case GBufferLayout::floatPosition: tolerance = {0.01, 0.10}; break;
+        case GBufferLayout::compact: tolerance = {0.015, 0.03}; break;
+    }
+    // Filter units may keep 8 bits of the weights and of the result (Vulkan asks for no more); normals decide highlights.
+    if (textured) tolerance.mean += 0.04, tolerance.p999 += 0.4;
+    return tolerance;
+}
+
+void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test) {
+    INFO("scene: " << test.name);
+    const Frame reference = renderReference(test.scene, test.view, {}, kMaskLayers);
+    const auto mask = interior(reference);
+    for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
+        INFO("layout: " << int(layout));
+        const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = layout}, kMaskLayers);
+        const Difference radiance = difference(frame.radiance, reference.radiance, &mask);
+        const Tolerance tolerance = toleranceOf(layout, test.textured);
+        INFO("mean " << radiance.mean << ", 99.9 % " << radiance.p999 << ", max " << radiance.max << ", compared " << radiance.share);
+        CHECK(radiance.share > 0.03);
+        CHECK(radiance.mean < tolerance.mean);
+        CHECK(radiance.p999 < tolerance.p999);
+        size_t wrong = 0;
+        for (size_t i = 0; i < mask.size(); ++i)
+            if (mask[i]) wrong += frame.aovs.at("id").data[i] != reference.aovs.at("id").data[i];
+        CHECK(wrong == 0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("brute force: matches the reference in every G-buffer layout, on scenes that use everything") {
+    ValidatedRenderer renderer;
+    for (const TestScene& test : testScenes()) checkAgainstReference(renderer, test);
+}
+
+TEST_CASE("brute force: matches the reference on real assets") {
+    LUCIOLE_ASSETS_OR_SKIP(folder);
+    const std::filesystem::path rigs = std::filesystem::path(LUCIOLE_SOURCE_DIR) / "examples" / "rigs";
+    struct Asset {
+        const char *file, *rig;
+    };
+    ValidatedRenderer renderer;
+    for (const Asset& asset : {Asset{"DamagedHelmet/DamagedHelmet.glb", "helmet.json"},
+                               Asset{"LightsPunctualLamp/LightsPunctualLamp.gltf", nullptr},
+                               Asset{"SponzaSmall/SponzaSmall.glb", "sponza.json"},
+                               Asset{"CastlePunctualLights/test_lights.glb", nullptr},
+                               Asset{"bench/hall-255-o4.glb", nullptr}}) {
+        Scene scene = loadScene((folder / asset.file).string());
+        if (asset.rig) applyRig(scene, rigs / asset.rig);
+        REQUIRE(!scene.lights.empty());
+        const Camera camera = scene.cameras.empty() ? autoCamera(scene) : scene.cameras.back();
+        checkAgainstReference(renderer, {asset.file, std::move(scene), {camera, {192, 144}}, true});
+    }
+}
+
+TEST_CASE("additional layers: equal the reference's where a ray and a rasterizer see the same surface") {
+    ValidatedRenderer renderer;
+    const TestScene test = studio();
+    const Frame reference = renderReference(test.scene, test.view, {}, aovNames());
+    const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = GBufferLayout::compact}, aovNames());
+    const auto mask = interior(reference);
+    const auto compared = [&](const char* name) { return difference(frame.aovs.at(name), reference.aovs.at(name), &mask); };
+    CHECK(compared("material").max == 0);
+    CHECK(compared("id").max == 0);
+    CHECK(compared("depth").max < 1e-5);         // 32-bit depth, reversed
+    CHECK(compared("cs0").max < 0.02);           // 8 bits of the square root: 2 * 0.5 / 255 / sqrt(0.2), and the floor
+    CHECK(compared("light-count").p999 == 0);    // a pixel on a range's very edge may differ
+    double normalError = 0;
+    for (size_t i = 0; i < mask.size(); ++i) {
+        if (!mask[i]) continue;
+        const float* a = &frame.aovs.at("normal").data[3 * i];
+        const float* b = &reference.aovs.at("normal").data[3 * i];
+        normalError = std::max(normalError, glm::length(dvec3(a[0] - b[0], a[1] - b[1], a[2] - b[2])));
+    }
+    CHECK(normalError < 1e-4);  // octahedral, 16 bits: 2.4e-5 a coordinate at most
+}
+
+TEST_CASE("display: the device's tone mapping equals the CPU's") {
+    ValidatedRenderer renderer;
+    const TestScene test = studio();
+    for (const auto toneMap : {ToneMap::none, ToneMap::reinhard, ToneMap::aces, ToneMap::agx}) {
+        const RenderSettings settings{.exposureEv = 0.5f, .toneMap = toneMap};
+        const Frame reference = renderReference(test.scene, test.view, settings, kMaskLayers);
+        const Frame frame = renderer.render(test.scene, test.view, settings);
+        const auto mask = interior(reference);
+        CHECK(difference(frame.display, reference.display, &mask).mean < 0.01);
+    }
+}

@@ -1,0 +1,109 @@
+#include "scenes.hpp"
+
+#include <luciole/scene_io.hpp>
+
+#include "scene_building.hpp"
+
+namespace luciole::test {
+namespace {
+
+const mat4 kLying = glm::rotate(mat4(1), -1.5707964f, vec3(1, 0, 0));  // a quad that faces +Y
+
+Material metallicRoughness(vec3 color, float metallic, float roughness) {
+    return {.baseColor = vec4(color, 1), .metallic = metallic, .roughness = roughness};
+}
+
+Material shaped(Scene& scene, vec3 color, Function::Kind fa, float faParameter, Function::Kind fb, float fbParameter, float blend) {
+    Material material{.equation = LightEquation::shaped, .baseColor = vec4(color, 1)};
+    material.shaped.diffuseFunction = addFunction(scene, fa, faParameter);
+    material.shaped.specularFunction = addFunction(scene, fb, fbParameter);
+    material.shaped.specularColor = vec3(0.9f, 0.8f, 0.6f);
+    material.shaped.specularBlend = blend;
+    material.shaped.kAmbient = color;
+    return material;
+}
+
+TestScene builtin(const std::string& uri) {
+    Scene scene = loadScene(uri);
+    const Camera camera = scene.cameras.at(0);
+    return {uri, std::move(scene), {camera, {192, 144}}};
+}
+
+/// A textured and normal-mapped floor, seen at a slant so that all mip levels count, under one directional light.
+TestScene texturedFloor() {
+    Scene scene;
+    std::vector<uint8_t> color, normal;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const auto wave = uint8_t(128 + 100 * std::sin(0.4 * x) * std::cos(0.3 * y));
+            color.insert(color.end(), {wave, uint8_t(255 - wave), uint8_t(4 * x), 255});
+            normal.insert(normal.end(), {uint8_t(128 + 60 * std::sin(0.2 * x)), uint8_t(128 + 60 * std::sin(0.2 * y)), 220, 255});
+        }
+    Material material = metallicRoughness(vec3(1), 0, 0.6f);
+    material.baseColorTexture = addTexture(scene, 64, 64, color);
+    material.normalTexture = addTexture(scene, 64, 64, normal);
+    addObject(scene, quad(6, 6), material, kLying);
+    scene.lights = {directionalLight(vec3(0.4f, -1, -0.3f), vec3(3)), pointLight(vec3(0, 1, 0), vec3(4, 2, 1), 5)};
+    scene.ambience = {vec3(0.2f), vec3(0.1f)};
+    Camera camera;
+    camera.worldFromView = lookAt(vec3(0, 2, 5), vec3(0, 0, 0));
+    return {"textured floor", std::move(scene), {camera, {192, 144}}, true};
+}
+
+}  // namespace
+
+TestScene studio() {
+    Scene scene;
+    using Kind = Function::Kind;
+    const Material materials[] = {
+        metallicRoughness(vec3(0.9f, 0.5f, 0.3f), 1, 0.25f),
+        metallicRoughness(vec3(0.2f, 0.4f, 0.8f), 0, 0.4f),
+        shaped(scene, vec3(0.7f, 0.2f, 0.2f), Kind::lambert, 0, Kind::blinnPhong, 40, 0),
+        shaped(scene, vec3(0.3f, 0.7f, 0.3f), Kind::wrap, 0.5f, Kind::blinnPhong, 10, 1),
+        shaped(scene, vec3(0.6f, 0.6f, 0.2f), Kind::orenNayar, 0.6f, Kind::constant, 0, 0.5f),
+        unlitMaterial(vec4(0.3f, 0.2f, 0.6f, 1)),
+    };
+    for (int i = 0; i < 6; ++i)
+        addObject(scene, sphere(0.8f, 48, 24), materials[i],
+                  glm::translate(mat4(1), vec3(2.0f * float(i % 3) - 2.0f, 0.8f, i < 3 ? 0.0f : -2.0f)));
+    addObject(scene, quad(8), metallicRoughness(vec3(0.5f), 0, 0.7f), kLying);
+
+    const uint32_t ramp = addFunction(scene, Kind::sampled);
+    scene.functions[ramp].samples = {vec2(1, 0), vec2(0.4f, 0), vec2(0.1f, 0), vec2(0)};
+    const uint32_t iris = addFunction(scene, Kind::sampled);
+    scene.functions[iris].samples = {vec2(0), vec2(0), vec2(0.5f, 0), vec2(1, 0)};
+    scene.linkGroups = {{"all but two", {true, false, true, true, false, true, true}}};
+
+    scene.lights = {directionalLight(vec3(-0.5f, -1, -0.4f), vec3(1.5f)),
+                    pointLight(vec3(-2, 2.2f, 1.5f), vec3(6, 3, 1), 6),
+                    pointLight(vec3(1.5f, 1.2f, 2), vec3(1, 4, 8)),
+                    spotLight(vec3(0, 4, 2), vec3(0, -1, -0.5f), 0.2f, 0.6f, vec3(30, 25, 20), 9),
+                    spotLight(vec3(4, 3, 0), vec3(-1, -0.6f, 0), 0.1f, 2.0f, vec3(5), 8)};
+    scene.lights[1].attenuation = ramp;
+    scene.lights[3].linkGroup = 0;
+    scene.lights[4].falloff = iris;
+    scene.lights.push_back(pointLight(vec3(0, 1, -4), vec3(8, 1, 6), 5));
+    scene.lights.back().contribution = LightContribution::diffuseOnly;
+    scene.lights.push_back(directionalLight(vec3(0.6f, -0.4f, -1), vec3(2)));
+    scene.lights.back().contribution = LightContribution::specularOnly;
+    scene.lights.back().infiniteViewer = true;
+    scene.ambience = {vec3(0.08f, 0.1f, 0.16f), vec3(0.06f, 0.04f, 0.02f)};
+    Camera camera;
+    camera.worldFromView = lookAt(vec3(1, 3, 7), vec3(0, 0.6f, 0));
+    return {"studio", std::move(scene), {camera, {192, 144}}};
+}
+
+std::vector<TestScene> testScenes() {
+    std::vector<TestScene> scenes{studio(), texturedFloor()};
+    TestScene orthographic = studio();
+    orthographic.name = "studio, orthographic";
+    orthographic.view.camera.orthographic = true;
+    orthographic.view.camera.halfHeight = 3;
+    orthographic.view.camera.zFar = 40;
+    scenes.push_back(std::move(orthographic));
+    for (const char* uri : {"builtin:hall?lights=64&triangles=8000", "builtin:materials", "builtin:fireflies?lights=100"})
+        scenes.push_back(builtin(uri));
+    return scenes;
+}
+
+}  // namespace luciole::test

@@ -1,0 +1,105 @@
+#include "render/tables.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scene_building.hpp"
+
+using namespace luciole;
+using namespace luciole::test;
+
+namespace {
+
+dvec4 project(const dmat4& m, dvec3 p) {
+    const dvec4 clip = m * dvec4(p, 1);
+    return clip / clip.w;
+}
+
+}  // namespace
+
+TEST_CASE("projection: reversed depth is 1 at the near plane and falls as near / distance") {
+    const Camera camera{.yFov = 1.0f, .zNear = 0.5f};
+    const dmat4 clip = render::clipFromView(camera, 1.5);
+    CHECK(project(clip, {0, 0, -0.5}).z == doctest::Approx(1));
+    CHECK(project(clip, {0, 0, -5}).z == doctest::Approx(0.1));
+    CHECK(project(clip, {0, 0, -1e9}).z == doctest::Approx(0));
+}
+
+TEST_CASE("projection: the top edge of the field of view lies at y = -1, Vulkan's top") {
+    const Camera camera{.yFov = 1.0f};
+    const dmat4 clip = render::clipFromView(camera, 2.0);
+    CHECK(project(clip, {0, 3 * std::tan(0.5), -3}).y == doctest::Approx(-1));
+    CHECK(project(clip, {2 * 3 * std::tan(0.5), 0, -3}).x == doctest::Approx(1));
+}
+
+TEST_CASE("projection: orthographic depth is 1 at the near and 0 at the far plane") {
+    const Camera camera{.orthographic = true, .halfHeight = 2, .zNear = 1, .zFar = 11};
+    const dmat4 clip = render::clipFromView(camera, 1.0);
+    CHECK(project(clip, {0, 0, -1}).z == doctest::Approx(1));
+    CHECK(project(clip, {0, 0, -11}).z == doctest::Approx(0));
+    CHECK(project(clip, {0, 2, -5}).y == doctest::Approx(-1));
+}
+
+TEST_CASE("warp matrix: takes what the G-buffer stores back to the position in view space") {
+    for (const bool orthographic : {false, true}) {
+        View view{frontCamera(), {200, 100}};
+        view.camera.orthographic = orthographic;
+        const auto constants = render::viewConstants(view, {});
+        const dvec3 point(0.3, -0.2, -4);
+        const dvec4 ndc = project(render::clipFromView(view.camera, 2.0), point);
+        const dvec4 stored(ndc.x * 0.5 + 0.5, ndc.y * 0.5 + 0.5, ndc.z, 1);
+        const dvec4 back = dmat4(constants.viewFromGBuffer) * stored;
+        CHECK(glm::length(dvec3(back) / back.w - point) < 1e-5);
+    }
+}
+
+TEST_CASE("function table: x = 0 is a sample, so that Lambert's kink is exact") {
+    const auto table = render::functionTable({{.kind = Function::Kind::lambert}});
+    REQUIRE(table.size() == 2 * shared::kFunctionSamples);
+    CHECK(table[shared::kFunctionSamples / 2] == vec2(0, 0));
+    CHECK(table[shared::kFunctionSamples / 2 + 1].y == 1);
+    CHECK(table[shared::kFunctionSamples - 1] == vec2(1, 1));
+}
+
+TEST_CASE("function table: the second half of the rows spans [0, 1], for attenuation") {
+    const auto table = render::functionTable({{.kind = Function::Kind::sampled, .samples = {vec2(1, 0), vec2(0, 0)}}});
+    CHECK(table[shared::kFunctionSamples].x == 1);
+    CHECK(table[shared::kFunctionSamples + shared::kFunctionSamples / 2].x == doctest::Approx(0.5));
+    CHECK(table.back().x == 0);
+}
+
+TEST_CASE("light table: positions and directions are in view space, flags say what the light leaves out") {
+    Light light = spotLight(vec3(1, 2, 3), vec3(0, 0, -1), 0.3f, 0.5f, vec3(1), 7);
+    light.contribution = LightContribution::specularOnly;
+    const auto constants = render::lightConstants(light, dmat4(glm::translate(mat4(1), vec3(0, 0, -5))), 0);
+    CHECK(constants.position == vec3(1, 2, -2));
+    CHECK(constants.direction == vec3(0, 0, -1));
+    CHECK(constants.flags == shared::kLightSpecular);
+    CHECK(constants.coneScale * std::cos(0.5f) + constants.coneOffset == doctest::Approx(0).epsilon(1e-5));
+    CHECK(constants.coneScale * std::cos(0.3f) + constants.coneOffset == doctest::Approx(1).epsilon(1e-5));
+}
+
+TEST_CASE("material table: colours above 1 are scaled into the target's range and back") {
+    Scene scene;
+    Material material = lambertMaterial(scene, vec3(0.5f, 2, 1));
+    material.shaped.kd = 3;
+    const auto tables = render::materialTables(material, 1);
+    CHECK(tables.material.cs0Scale == 6);
+    CHECK(tables.surface.cs0Factor.x * tables.material.cs0Scale == doctest::Approx(3));
+}
+
+TEST_CASE("material table: emission above 1 is split into a colour and Kemm") {
+    const auto tables = render::materialTables({.emissive = vec3(2, 8, 4)}, 1);
+    CHECK(tables.material.kEmissive == 8);
+    CHECK(tables.surface.cs1 == vec3(0.25f, 1, 0.5f));
+}
+
+TEST_CASE("link table: bit i of a row is object ID i") {
+    Scene scene = sceneOf(quad(), {});
+    scene.objects[0].objectId = 40;
+    scene.linkGroups = {{"a", std::vector<bool>(41, false)}, {"b", {}}};
+    scene.linkGroups[0].litObjects[40] = true;
+    uint32_t words = 0;
+    const auto table = render::linkTable(scene, words);
+    CHECK(words == 2);
+    CHECK(table == std::vector<uint32_t>{0, 1u << 8, 0, 0});
+}
