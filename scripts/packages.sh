@@ -36,7 +36,8 @@ clang_has_runtime() {
         clang++ -fsanitize=fuzzer,address -x c++ - -o /dev/null 2>/dev/null
 }
 
-distribution="$(. /etc/os-release 2>/dev/null && echo "${ID:-}-${VERSION_ID:-}" || true)"
+distribution=unknown
+if [[ -r /etc/os-release ]]; then distribution="$(. /etc/os-release && echo "${ID:-}-${VERSION_ID:-}")"; fi
 case "$distribution" in
     debian-12 | ubuntu-24.04)
         install_missing "${packages[@]}"

@@ -99,7 +99,7 @@ void addConsoleOptions(CLI::App& command, Console& console) {
 
 CLI::Option* addParsed(CLI::App& command, const std::string& name, std::function<void(const std::string&)> read,
                        const std::string& help) {
-    return command.add_option_function<std::string>(name, read, help);
+    return command.add_option_function<std::string>(name, std::move(read), help);
 }
 
 double parseNumber(std::string_view option, std::string_view text) {

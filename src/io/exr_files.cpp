@@ -116,6 +116,7 @@ Imf::Slice slice(Imf::PixelType type, const Sample* data, size_t channels, size_
     const size_t pixelBytes = sizeof(Sample) * channels;
     // OpenEXR wants the address that pixel (0, 0) would have, which may lie outside the buffer: no pointer arithmetic.
     const auto base = reinterpret_cast<uintptr_t>(data + channel) - uintptr_t((y * int64_t(width) + x) * pixelBytes);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr)
     return {type, reinterpret_cast<char*>(base), pixelBytes, pixelBytes * width};
 }
 

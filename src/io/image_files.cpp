@@ -2,6 +2,7 @@
 #include <spng.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <luciole/error.hpp>
 #include <luciole/output.hpp>
@@ -25,7 +26,7 @@ std::vector<std::byte> quantiseAndEncode(const Image& image) {
     for (size_t i = 0; i < samples.size(); ++i) {
         const float value = image.data[i];
         // Written so that NaN fails the comparison and becomes 0.
-        samples[i] = value > 0 ? Sample(std::min(value, 1.0f) * kMax + 0.5f) : Sample(0);
+        samples[i] = value > 0 ? Sample(std::lround(std::min(value, 1.0f) * kMax)) : Sample(0);
     }
     return encodePng(image.width, image.height, image.channels, std::span<const Sample>(samples));
 }

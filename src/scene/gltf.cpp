@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <set>
 
+#include <fmt/ranges.h>
+
 #include "scene/gltf_container.hpp"
 #include "scene/gltf_light_camera.hpp"
 #include "scene/gltf_material.hpp"

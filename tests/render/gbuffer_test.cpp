@@ -62,7 +62,7 @@ TEST_CASE("G-buffer: bytes per pixel are those in docs/gbuffer.md") {
 // Prints the table of docs/gbuffer.md (run render_tests --test-case="G-buffer: position*" --success).
 TEST_CASE("G-buffer: position and normal errors stay within what the bits of each layout allow") {
     ValidatedRenderer renderer;
-    for (const float distance : {1.0f, 10.0f, 100.0f}) {
+    for (const float distance : {1.37f, 13.7f, 137.0f}) {
         const Errors calver = measure(renderer, GBufferLayout::calver, distance);
         const Errors floats = measure(renderer, GBufferLayout::floatPosition, distance);
         const Errors compact = measure(renderer, GBufferLayout::compact, distance);
@@ -74,7 +74,7 @@ TEST_CASE("G-buffer: position and normal errors stay within what the bits of eac
         CHECK(calver.depth <= step * (1 + step) + 1e-6);
         CHECK(floats.depth <= std::exp2(-11) * 1.01);  // 11 significant bits, to nearest; 2^-10 where a driver truncates
         CHECK(compact.depth <= 1e-6);
-        // 16-bit octahedral: 0.005 degrees; the sphere's 256 x 128 facets interpolate normals within 0.02 degrees.
-        for (const Errors& errors : {calver, floats, compact}) CHECK(errors.normalDegrees < 0.05);
+        // 16-bit octahedral: 0.004 degrees; interpolating over the facets of the sphere adds a little.
+        for (const Errors& errors : {calver, floats, compact}) CHECK(errors.normalDegrees < 0.01);
     }
 }

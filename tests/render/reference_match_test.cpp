@@ -30,16 +30,17 @@ Tolerance toleranceOf(GBufferLayout layout, bool textured) {
         case GBufferLayout::floatPosition: tolerance = {0.01, 0.10}; break;
         case GBufferLayout::compact: tolerance = {0.015, 0.03}; break;
     }
-    // Filter units may keep 8 bits of the weights and of the result (Vulkan asks for no more); normals decide highlights.
-    if (textured) tolerance.mean += 0.04, tolerance.p999 += 0.4;
+    // A driver may choose the mip level by an approximation of the gradient's length (Vulkan 1.3, "Scale Factor
+    // Operation"): up to half a level off, and a normal off by that much moves a highlight.
+    if (textured) tolerance.mean += 0.03, tolerance.p999 += 0.3;
     return tolerance;
 }
 
-void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test) {
+void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test, std::initializer_list<GBufferLayout> layouts) {
     INFO("scene: " << test.name);
     const Frame reference = renderReference(test.scene, test.view, {}, kMaskLayers);
     const auto mask = interior(reference);
-    for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
+    for (const auto layout : layouts) {
         INFO("layout: " << int(layout));
         const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = layout}, kMaskLayers);
         const Difference radiance = difference(frame.radiance, reference.radiance, &mask);
@@ -51,7 +52,8 @@ void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test) {
         size_t wrong = 0;
         for (size_t i = 0; i < mask.size(); ++i)
             if (mask[i]) wrong += frame.aovs.at("id").data[i] != reference.aovs.at("id").data[i];
-        CHECK(wrong == 0);
+        // A sliver's tip may cover a pixel's centre for the one and not for the other.
+        CHECK(double(wrong) <= 2e-4 * double(mask.size()));
     }
 }
 
@@ -59,7 +61,8 @@ void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test) {
 
 TEST_CASE("brute force: matches the reference in every G-buffer layout, on scenes that use everything") {
     ValidatedRenderer renderer;
-    for (const TestScene& test : testScenes()) checkAgainstReference(renderer, test);
+    for (const TestScene& test : testScenes())
+        checkAgainstReference(renderer, test, {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact});
 }
 
 TEST_CASE("brute force: matches the reference on real assets") {
@@ -78,7 +81,9 @@ TEST_CASE("brute force: matches the reference on real assets") {
         if (asset.rig) applyRig(scene, rigs / asset.rig);
         REQUIRE(!scene.lights.empty());
         const Camera camera = scene.cameras.empty() ? autoCamera(scene) : scene.cameras.back();
-        checkAgainstReference(renderer, {asset.file, std::move(scene), {camera, {192, 144}}, true});
+        // Not calver: its 16 bits of depth depend on the camera's near plane, and these cameras were not made for it.
+        checkAgainstReference(renderer, {asset.file, std::move(scene), {camera, {192, 144}}, true},
+                              {GBufferLayout::floatPosition, GBufferLayout::compact});
     }
 }
 

@@ -45,7 +45,8 @@ TEST_CASE("glTF tangents: on an upright picture the tangent points along u and t
 
 TEST_CASE(
     "glTF tangents: a mirrored picture has the opposite tangent and sign, so that its bitangent still points up") {
-    for (const Vertex& v : strip(1, 0.5f, 0).load().meshes.at(0).vertices) CHECK(v.tangent == vec4(-1, 0, 0, -1));
+    const Mesh mesh = strip(1, 0.5f, 0).load().meshes.at(0);
+    for (const Vertex& v : mesh.vertices) CHECK(v.tangent == vec4(-1, 0, 0, -1));
 }
 
 TEST_CASE("glTF tangents: vertices on a mirror line are split, the others are not") {
