@@ -85,7 +85,7 @@ Rgba8 decodeJpeg(const Source& source) {
     if (tjDecompressHeader3(decoder.get(), data, source.bytes.size(), &width, &height, &subsampling, &colorSpace) != 0)
         refuse();
     source.checkSize(uint64_t(width), uint64_t(height));
-    constexpr uint64_t kTexelsPerByte = 16 * 16 * 8;  // a bit at least for each of the blocks, of 16 x 16 at most
+    constexpr uint64_t kTexelsPerByte = 16ull * 16 * 8;  // a bit at least for each of the blocks, of 16 x 16 at most
     source.checkPromise(uint64_t(width) * uint64_t(height) / kTexelsPerByte);
 
     Rgba8 image{uint32_t(width), uint32_t(height), {}};

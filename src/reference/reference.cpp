@@ -11,6 +11,7 @@
 #include <luciole/error.hpp>
 
 #include "output/display.hpp"
+#include "output/request.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/lights.hpp"
 #include "reference/parallel_rows.hpp"
@@ -47,14 +48,9 @@ constexpr std::array kAovs{
     Aov{"light-count", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
 };
 
+/// \param name one of aovNames(), checked
 const Aov& aovNamed(const std::string& name) {
-    const auto* found = std::find_if(kAovs.begin(), kAovs.end(), [&](const Aov& aov) { return aov.name == name; });
-    if (found == kAovs.end()) {
-        std::string names;
-        for (const Aov& aov : kAovs) names += fmt::format("{}{}", names.empty() ? "" : ", ", aov.name);
-        throw Error(ErrorKind::usage, fmt::format("aov: expected one of {}, got {}", names, name));
-    }
-    return *found;
+    return *std::find_if(kAovs.begin(), kAovs.end(), [&](const Aov& aov) { return aov.name == name; });
 }
 
 void store(Image& image, uint32_t x, uint32_t y, dvec3 value) {
@@ -116,20 +112,13 @@ private:
     std::vector<LightSource> lights_;
 };
 
-void checkExtent(uvec2 extent) {
-    constexpr uint32_t kMax = 16384;
-    if (extent.x == 0 || extent.y == 0 || extent.x > kMax || extent.y > kMax)
-        throw Error(ErrorKind::usage,
-                    fmt::format("size: expected 1 to {} pixels a side, got {} x {}", kMax, extent.x, extent.y));
-}
-
 }  // namespace
 }  // namespace reference
 
 Frame renderReference(const Scene& scene, const View& view, const RenderSettings& settings,
                       const std::vector<std::string>& aovs, const std::function<bool(double)>& progress) {
     using namespace reference;
-    checkExtent(view.extent);
+    checkRequest(view, aovs);
     const auto start = std::chrono::steady_clock::now();
     Frame frame;
     frame.radiance = Image(view.extent.x, view.extent.y, 3);

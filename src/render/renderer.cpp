@@ -2,16 +2,14 @@
 #include <luciole/renderer.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <set>
 
 #include "frame/executor.hpp"
 #include "frame/pass_context.hpp"
 #include "gpu/shaders.hpp"
+#include "output/request.hpp"
 #include "render/geometry/gbuffer.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/lighting/techniques.hpp"
@@ -20,11 +18,6 @@
 namespace luciole {
 
 using frame::Access;
-
-const std::vector<std::string>& aovNames() {
-    static const std::vector<std::string> names{"depth", "normal", "cs0", "cs1", "material", "id", "light-count"};
-    return names;
-}
 
 namespace render {
 namespace {
@@ -89,17 +82,12 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     return {key, outputs, frame::Executor(context, pipelines, std::move(graph))};
 }
 
-void checkRequest(const gpu::Context& context, const View& view, const std::vector<std::string>& aovs) {
+void checkAgainstDevice(const gpu::Context& context, uvec2 extent) {
     const auto& limits = context.limits();
-    const uint32_t limit = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight, 16384u});
-    if (view.extent.x < 1 || view.extent.y < 1)
-        throw Error(ErrorKind::usage, fmt::format("size: expected at least 1x1, got {}x{}", view.extent.x, view.extent.y));
-    if (view.extent.x > limit || view.extent.y > limit)
+    const uint32_t limit = std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight});
+    if (std::max(extent.x, extent.y) > limit)
         throw Error(ErrorKind::limit, fmt::format("size: expected at most {0}x{0} pixels on {1}, got {2}x{3}", limit,
-                                                  context.info().name, view.extent.x, view.extent.y));
-    for (const std::string& name : aovs)
-        if (std::ranges::find(aovNames(), name) == aovNames().end())
-            throw Error(ErrorKind::usage, fmt::format("aov: expected one of {}, got \"{}\"", fmt::join(aovNames(), ", "), name));
+                                                  context.info().name, extent.x, extent.y));
 }
 
 }  // namespace
@@ -115,7 +103,8 @@ struct Renderer::Impl {
     }
 
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
-        render::checkRequest(context, view, aovs);
+        checkRequest(view, aovs);
+        render::checkAgainstDevice(context, view.extent);
         context.resetPeak();
         const render::FrameKey key{view.extent,          settings.lighting,     settings.gbuffer,
                                    settings.lightBuffer, settings.depthPrepass, !aovs.empty()};

@@ -160,7 +160,7 @@ Mesh urnMesh(const Fineness& fine) {
     constexpr std::array<vec2, 15> kProfile = {vec2{0.24f, 0}, {0.24f, 0.05f}, {0.24f, 0.05f}, {0.12f, 0.09f},
                                                {0.11f, 0.16f}, {0.28f, 0.34f}, {0.36f, 0.58f}, {0.32f, 0.8f},
                                                {0.18f, 0.94f}, {0.15f, 1.02f}, {0.23f, 1.12f}, {0.23f, 1.12f},
-                                               {0.2f, 1.1f},   {0.14f, 0.98f}, {0, 0.9f}};
+                                               {0.19f, 1.1f},  {0.12f, 1.03f}, {0, 0.96f}};
     return turnedMesh(kProfile, fine);
 }
 

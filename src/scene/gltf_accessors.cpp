@@ -162,11 +162,12 @@ Attribute Accessors::floats(const JsonNode& reference, uint32_t low, uint32_t hi
     const JsonNode accessor = resolve(root_, "accessors", reference);
     const Layout layout = this->layout(accessor, low, high);
     const bool normalized = layout.normalized || forceNormalized;
+    const size_t size = sizeOf(layout.type);
     Attribute result{layout.components, std::vector<float>(layout.count * layout.components)};
     forEachElement(accessor, layout, [&](uint64_t element, const std::byte* from) {
         float* to = result.values.data() + element * layout.components;
         for (uint32_t c = 0; c < layout.components; ++c) {
-            to[c] = asFloat(from + c * sizeOf(layout.type), layout.type, normalized);
+            to[c] = asFloat(from + c * size, layout.type, normalized);
         }
     });
     return result;

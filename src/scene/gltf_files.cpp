@@ -53,11 +53,11 @@ bool isInside(const fs::path& file, const fs::path& folder) {
 }
 
 /// Value of each base64 character (RFC 4648, section 4), -1 for all others.
-constexpr std::array<int8_t, 256> kBase64 = [] {
-    std::array<int8_t, 256> values{};
+constexpr std::array<int, 256> kBase64 = [] {
+    std::array<int, 256> values{};
     values.fill(-1);
     constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (size_t i = 0; i < kAlphabet.size(); ++i) values[uint8_t(kAlphabet[i])] = int8_t(i);
+    for (size_t i = 0; i < kAlphabet.size(); ++i) values[uint8_t(kAlphabet[i])] = int(i);
     return values;
 }();
 
@@ -71,7 +71,7 @@ fs::path Files::resolve(const JsonNode& uri) const {
     if (folder_.empty()) uri.fail("a data URI, as the scene has no folder");
     std::error_code code;
     const fs::path folder = fs::canonical(folder_, code);
-    const fs::path file = fs::weakly_canonical(folder / name, code);
+    fs::path file = fs::weakly_canonical(folder / name, code);
     if (code) uri.fail(fmt::format("a file that can be found ({})", code.message()));
     if (!allowExternal_ && !isInside(file, folder)) uri.fail("a file in the scene's folder");
     return file;

@@ -329,7 +329,8 @@ TEST_CASE("glb: an empty scene makes a valid file") {
 }
 
 TEST_CASE("glb: the built-in scenes survive writing and reading") {
-    for (const char* uri : {"builtin:hall?lights=60&triangles=8000", "builtin:materials", "builtin:fireflies?lights=40"}) {
+    for (const char* uri :
+         {"builtin:hall?lights=60&triangles=8000", "builtin:materials", "builtin:fireflies?lights=40"}) {
         const Scene scene = loadScene(uri);
         const Glb glb = roundTrip(scene, "builtin");
         CHECK(triangleCount(glb.readBack) == triangleCount(scene));
