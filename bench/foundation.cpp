@@ -43,12 +43,14 @@ void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) 
     const std::string techniques[] = {"brute-force", "fullscreen"};
     std::map<std::string, Samples> samples;
     double covered = 0;
-    for (const float depth : renderer.render(view, {}, {"depth"}).aovs.at("depth").data) covered += depth > 0;
+    const Frame depths = renderer.render(view, {}, {"depth"});
+    for (const float depth : depths.aovs.at("depth").data) covered += depth > 0;
     for (const std::string& technique : techniques) renderer.render(view, {.lighting = technique, .measure = true});  // warm-up
     for (int frame = 0; frame < frames; ++frame)  // interleaved, so that the machine's drift meets both
-        for (const std::string& technique : techniques)
-            for (const PassStats& pass : renderer.render(view, {.lighting = technique, .measure = true}).stats.passes)
-                samples[technique][pass.name].push_back(pass.ms.value());
+        for (const std::string& technique : techniques) {
+            const Frame measured = renderer.render(view, {.lighting = technique, .measure = true});
+            for (const PassStats& pass : measured.stats.passes) samples[technique][pass.name].push_back(pass.ms.value());
+        }
     for (const std::string& technique : techniques) {
         const Samples& rows = samples.at(technique);
         const auto& lighting = rows.at("lighting." + technique);

@@ -346,7 +346,7 @@ TEST_CASE("reference: unknown layers and impossible sizes are usage errors that 
         return "";
     };
     CHECK(message({.camera = {}, .extent = {1, 1}}, {"detph"}).find("detph") != std::string::npos);
-    CHECK(message({.camera = {}, .extent = {0, 5}}, {}).find("0 x 5") != std::string::npos);
+    CHECK(message({.camera = {}, .extent = {0, 5}}, {}).find("0x5") != std::string::npos);
     CHECK(message({.camera = {}, .extent = {1, 16385}}, {}).find("16385") != std::string::npos);
 }
 
