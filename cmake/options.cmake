@@ -15,7 +15,7 @@ function(luciole_room name)
     target_link_libraries(luciole_${name} PUBLIC ${ROOM_LINK} PRIVATE luciole_options ${ROOM_PRIVATE})
 endfunction()
 
-# One test program: luciole_test(NAME SOURCES ... LINK targets... [LABELS ...]); each TEST_CASE becomes a CTest test.
+# One test program: luciole_test(NAME SOURCES ... LINK targets... [LABELS ...]): one CTest test.
 function(luciole_test name)
     cmake_parse_arguments(TEST "" "" "SOURCES;LINK;LABELS" ${ARGN})
     add_executable(${name} ${TEST_SOURCES} ${PROJECT_SOURCE_DIR}/tests/main.cpp)

@@ -18,12 +18,18 @@ namespace {
 
 constexpr std::string_view kReference = "reference";  ///< the one technique that needs no device
 
+#ifdef NDEBUG
+constexpr bool kDebugBuild = false;
+#else
+constexpr bool kDebugBuild = true;
+#endif
+
 struct RenderOptions {
     SceneOptions scene;
     ViewOptions view;
     SettingOptions settings;
     OutputOptions output;
-    RendererOptions renderer;
+    RendererOptions renderer{.validation = kDebugBuild};
     Console console;
     bool defaultLight = true;
     bool json = false;
@@ -36,7 +42,7 @@ void addDeviceOptions(CLI::App& command, RendererOptions& options) {
                     "index or part of a name, as `luciole devices` says [a discrete GPU, else any GPU, else software]")
         ->type_name("INDEX|NAME")
         ->group("Device");
-    command.add_flag("--validation", options.validation, "let Vulkan check every call, and say what it finds")
+    command.add_flag("--validation", options.validation, "let Vulkan check every call, and say what it finds (always on in debug builds)")
         ->group("Device");
 }
 

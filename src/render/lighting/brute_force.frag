@@ -7,9 +7,8 @@ layout(location = 0) out vec4 radiance;
 
 // Every light at every pixel, summed in registers: one rounding. The yardstick of all other techniques.
 void main() {
-    const Surface s = readSurface(ivec2(gl_FragCoord.xy));
-    const MaterialConstants m = materials[s.material];
+    const ShadingPoint p = shadingPoint(readSurface(ivec2(gl_FragCoord.xy)));
     vec3 sum = vec3(0);
-    for (uint i = 0u; i < view.lightCount; ++i) sum += illuminate(s, m, lightAt(i));
+    for (uint i = 0u; i < view.lightCount; ++i) sum += illuminate(p, lightAt(i));
     radiance = vec4(sum, 0);
 }

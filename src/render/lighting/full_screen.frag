@@ -8,6 +8,6 @@ layout(location = 0) out vec4 radiance;
 
 // One light at every pixel, added to the light buffer by the blender (Calver 2003, "Full screen lights").
 void main() {
-    const Surface s = readSurface(ivec2(gl_FragCoord.xy));
-    radiance = vec4(illuminate(s, materials[s.material], lightAt(lightIndex)), 0);
+    const ShadingPoint p = shadingPoint(readSurface(ivec2(gl_FragCoord.xy)));
+    radiance = vec4(illuminate(p, lightAt(lightIndex)), 0);
 }

@@ -51,7 +51,7 @@ struct Arrival {
 
 Arrival arrivalAt(LightConstants light, vec3 P) {
     Arrival arrival = Arrival(-light.direction, light.color);
-    if (usesLights(kUsesLocal) && light.type != kLightDirectional) {
+    if (usesLights(kUsesLocal) && (!usesLights(kUsesDirectional) || light.type != kLightDirectional)) {
         const vec3 toLight = light.position - P;
         const float dist = length(toLight);
         arrival.L = toLight / max(dist, 1e-6);
@@ -63,59 +63,77 @@ Arrival arrivalAt(LightConstants light, vec3 P) {
     return arrival;
 }
 
-// Calver 2003, "Light Model": Illuminate. Kd and Ks are folded into Cs0 and Cs1.
-vec3 illuminateShaped(Surface s, MaterialConstants m, vec3 V, vec3 L, vec3 E, vec2 keep) {
+// A surface point with all that the equations need of it and that no light changes, so that it is computed once.
+struct ShadingPoint {
+    Surface s;
+    MaterialConstants m;
+    vec3 V;        // to the eye
+    // metallic-roughness:
+    vec3 diffuse;  // c_diff / pi
+    vec3 F0;
+    float a2;      // alpha^2
+    float NoV;
+    float smithV;  // the term of Vis that depends on V
+};
+
+ShadingPoint shadingPoint(Surface s) {
+    ShadingPoint p;
+    p.s = s;
+    p.m = materials[s.material];
+    p.V = view.orthographic != 0u ? vec3(0, 0, 1) : normalize(-s.P);
+    const float alpha = max(s.roughness, 0.045) * max(s.roughness, 0.045);
+    p.diffuse = s.Cs0 * ((1.0 - s.specularBlend) / kPi);
+    p.F0 = mix(vec3(0.04), s.Cs0, s.specularBlend);
+    p.a2 = alpha * alpha;
+    p.NoV = max(abs(dot(s.N, p.V)), 1e-4);
+    p.smithV = sqrt(p.NoV * p.NoV * (1.0 - p.a2) + p.a2);
+    return p;
+}
+
+// Calver 2003, "Light Model": Illuminate. Kd and Ks are folded into Cs0 and Cs1. `keep`: diffuse and specular, 0 or 1.
+vec3 illuminateShaped(ShadingPoint p, vec3 V, vec3 L, vec3 E, vec2 keep) {
     const vec3 H = normalize(V + L);
     const vec3 Cl = E / kPi;
-    const vec2 diffuse = lookUp(m.diffuseFunction, bias(dot(s.N, L)));
-    const float specular = lookUp(m.specularFunction, bias(dot(s.N, H))).x;
+    const vec2 diffuse = lookUp(p.m.diffuseFunction, bias(dot(p.s.N, L)));
+    const float specular = lookUp(p.m.specularFunction, bias(dot(p.s.N, H))).x;
     const float strength = dot(Cl, vec3(0.2126, 0.7152, 0.0722));
-    const vec3 highlight = s.Cs1 * mix(Cl, vec3(strength), s.specularBlend);
-    return keep.x * s.Cs0 * Cl * diffuse.x + keep.y * specular * highlight * diffuse.y;
+    const vec3 highlight = p.s.Cs1 * mix(Cl, vec3(strength), p.s.specularBlend);
+    return keep.x * p.s.Cs0 * Cl * diffuse.x + keep.y * specular * highlight * diffuse.y;
 }
 
 // glTF 2.0, Appendix B: GGX distribution, height-correlated Smith, Schlick's Fresnel.
-vec3 illuminateMetallicRoughness(Surface s, vec3 V, vec3 L, vec3 E, vec2 keep) {
-    const float NoL = dot(s.N, L);
+vec3 illuminateMetallicRoughness(ShadingPoint p, vec3 L, vec3 E, vec2 keep) {
+    const float NoL = dot(p.s.N, L);
     if (NoL <= 0.0) return vec3(0);
-    const vec3 H = normalize(V + L);
-    const float NoV = max(abs(dot(s.N, V)), 1e-4);
-    const float NoH = dot(s.N, H);
-    const float VoH = max(dot(V, H), 0.0);
-    const float alpha = max(s.roughness, 0.045) * max(s.roughness, 0.045);
-    const float a2 = alpha * alpha;
-    const float u = 1.0 - VoH;
+    const vec3 H = normalize(p.V + L);
+    const float NoH = dot(p.s.N, H);
+    const float u = 1.0 - max(dot(p.V, H), 0.0);
     const float u2 = u * u;
-    const vec3 F0 = mix(vec3(0.04), s.Cs0, s.specularBlend);
-    const vec3 F = F0 + (1.0 - F0) * (u2 * u2 * u);
+    const vec3 F = p.F0 + (1.0 - p.F0) * (u2 * u2 * u);
     // 1 - (N.H)^2 as |N x H|^2: near the peak of a smooth surface the difference has no digits left.
-    const vec3 NxH = cross(s.N, H);
-    const float d = NoH * NoH * a2 + dot(NxH, NxH);
-    const float D = NoH > 0.0 ? a2 / (kPi * d * d) : 0.0;
-    const float Vis = 0.5 / (NoL * sqrt(NoV * NoV * (1.0 - a2) + a2) + NoV * sqrt(NoL * NoL * (1.0 - a2) + a2));
-    const vec3 diffuse = (1.0 - F) * s.Cs0 * ((1.0 - s.specularBlend) / kPi);
-    return (keep.x * diffuse + keep.y * F * (D * Vis)) * E * NoL;
+    const vec3 NxH = cross(p.s.N, H);
+    const float d = NoH * NoH * p.a2 + dot(NxH, NxH);
+    const float smithL = sqrt(NoL * NoL * (1.0 - p.a2) + p.a2);
+    // D Vis = a^2 / (pi d^2) * 0.5 / (NoL smithV + NoV smithL)
+    const float DVis = NoH > 0.0 ? 0.5 * p.a2 / (kPi * d * d * (NoL * p.smithV + p.NoV * smithL)) : 0.0;
+    return (keep.x * (1.0 - F) * p.diffuse + keep.y * F * DVis) * E * NoL;
 }
 
-// Direction from the surface to the eye.
-vec3 toEye(vec3 P) { return view.orthographic != 0u ? vec3(0, 0, 1) : normalize(-P); }
-
-// Radiance that `s` sends to the eye from this light.
-vec3 illuminate(Surface s, MaterialConstants m, LightConstants light) {
-    const Arrival arrival = arrivalAt(light, s.P);
-    if (usesLights(kUsesLinks) && !linked(light.linkGroup, s.objectId)) return vec3(0);
+// Radiance that the point sends to the eye from this light.
+vec3 illuminate(ShadingPoint p, LightConstants light) {
+    const Arrival arrival = arrivalAt(light, p.s.P);
+    if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return vec3(0);
     vec2 keep = vec2(1);
-    vec3 V = toEye(s.P);
-    vec3 eyeOfShaped = V;
+    vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {
         keep = vec2(light.flags & kLightDiffuse, (light.flags & kLightSpecular) >> 1u);
-        if ((light.flags & kLightInfiniteViewer) != 0u) eyeOfShaped = vec3(0, 0, 1);
+        if ((light.flags & kLightInfiniteViewer) != 0u) shapedV = vec3(0, 0, 1);
     }
     vec3 radiance = vec3(0);
-    if (usesEquation(kEquationMetallicRoughness) && m.equation == kEquationMetallicRoughness)
-        radiance = illuminateMetallicRoughness(s, V, arrival.L, arrival.E, keep);
-    if (usesEquation(kEquationShaped) && m.equation == kEquationShaped)
-        radiance = illuminateShaped(s, m, eyeOfShaped, arrival.L, arrival.E, keep);
+    if (usesEquation(kEquationMetallicRoughness) && p.m.equation == kEquationMetallicRoughness)
+        radiance = illuminateMetallicRoughness(p, arrival.L, arrival.E, keep);
+    if (usesEquation(kEquationShaped) && p.m.equation == kEquationShaped)
+        radiance = illuminateShaped(p, shapedV, arrival.L, arrival.E, keep);
     return radiance;
 }
 
