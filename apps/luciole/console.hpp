@@ -6,6 +6,12 @@
 
 namespace luciole::cli {
 
+/// Prints to stderr. Where it is closed or full nobody is listening, and the work goes on.
+void say(std::string_view text);
+
+/// `text` with its control characters as spaces: names in files may hold line ends and a terminal's commands.
+std::string printable(std::string_view text);
+
 /// What is said to people: stderr only, stdout belongs to results.
 class Console {
 public:

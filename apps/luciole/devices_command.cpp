@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "console.hpp"
 
 namespace luciole::cli {
 namespace {
@@ -36,7 +37,7 @@ std::string devicesText(const std::vector<DeviceInfo>& devices) {
 
 void run(bool json) {
     const std::vector<DeviceInfo> devices = listDevices();
-    if (devices.empty()) fmt::print(stderr, "luciole: no Vulkan device found; is a driver installed?\n");
+    if (devices.empty()) say("luciole: no Vulkan device found; is a driver installed?\n");
     fmt::print("{}", json ? devicesJson(devices) + "\n" : devicesText(devices));
 }
 

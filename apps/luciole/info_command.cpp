@@ -62,7 +62,7 @@ std::string list(std::string_view title, const std::vector<T>& elements, Describ
     constexpr size_t kShown = 32;
     std::string text = fmt::format("{:<11}{}\n", title, elements.size());
     for (size_t i = 0; i < std::min(elements.size(), kShown); ++i)
-        text += fmt::format("  {:>4}  {} ({})\n", i, elements[i].name, describe(elements[i]));
+        text += fmt::format("  {:>4}  {} ({})\n", i, printable(elements[i].name), describe(elements[i]));
     if (elements.size() > kShown)
         text += fmt::format("  ... and {} more; --json lists all\n", elements.size() - kShown);
     return text;

@@ -20,7 +20,7 @@ void onSignal(int signal) {
 }  // namespace
 
 void exitOnInterrupt() {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction action {};
         // A parent that ignores a signal (nohup, a shell's background job) means it for us too.
         if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;
@@ -28,6 +28,8 @@ void exitOnInterrupt() {
         action.sa_handler = onSignal;
         ::sigaction(signal, &action, nullptr);
     }
+    // Beyond the file size limit (ulimit -f) a write then fails, and what stands there is tidied up.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 FinishFirst::FinishFirst() { finishFirst = true; }

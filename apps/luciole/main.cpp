@@ -1,16 +1,20 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "commands.hpp"
+#include "console.hpp"
 #include "interrupt.hpp"
 
 namespace {
@@ -26,13 +30,12 @@ public:
     }
 };
 
-int fail(int exitCode, std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');  // one line, whatever a library says
-    fmt::print(stderr, "luciole: error: {}\n", message);
+int fail(int exitCode, std::string_view message) {
+    cli::say(fmt::format("luciole: error: {}\n", cli::printable(message)));  // one line, whatever a library says
     return exitCode;
 }
 
-int fail(ErrorKind kind, const std::string& message) { return fail(int(kind), message); }
+int fail(ErrorKind kind, std::string_view message) { return fail(int(kind), message); }
 
 std::string helpFooter() {
     std::string text =
@@ -52,6 +55,13 @@ std::string helpFooter() {
            "\nExit codes: 0 done, 2 wrong usage, 3 faulty scene or rig, 4 file can't be read or written,\n"
            "  5 no usable device, 6 device lost or out of memory, 8 a limit is exceeded, 130 interrupted.\n"
            "docs/command-line.md says more.\n";
+}
+
+/// Keeps the numbers of closed standard streams from going to files, which would then receive what is printed. They
+/// stay unusable for what they are for: a result that can't be written is an error.
+void occupyStandardStreams() {
+    for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(fd, F_GETFD) < 0) ::open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);  // takes `fd`
 }
 
 int run(int argc, char** argv) {
@@ -83,12 +93,15 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        occupyStandardStreams();
         cli::exitOnInterrupt();
         return run(argc, argv);
     } catch (const Error& error) {
         return fail(error.kind(), error.what());
     } catch (const std::bad_alloc&) {
         return fail(ErrorKind::deviceLost, "out of memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return fail(ErrorKind::io, error.what());
     } catch (const std::exception& error) {
         return fail(1, error.what());
     }

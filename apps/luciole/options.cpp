@@ -27,6 +27,8 @@ bool parseAll(std::string_view text, T& value) {
     return code == std::errc() && end == text.data() + text.size();
 }
 
+constexpr size_t kMaxSettingsBytes = 1 << 20;
+
 std::string readText(const std::string& file) {
     const auto fail = [&] {
         throw Error(ErrorKind::io, fmt::format("{}: can't read: {}", file, std::generic_category().message(errno)));
@@ -35,8 +37,11 @@ std::string readText(const std::string& file) {
     if (!stream) fail();
     std::string text;
     std::array<char, 4096> block;
-    while (const size_t count = std::fread(block.data(), 1, block.size(), stream.get()))
+    while (const size_t count = std::fread(block.data(), 1, block.size(), stream.get())) {
         text.append(block.data(), count);
+        if (text.size() > kMaxSettingsBytes)  // not asked of the file, which may be a pipe
+            throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} bytes", file, kMaxSettingsBytes));
+    }
     if (std::ferror(stream.get()) != 0) fail();
     return text;
 }

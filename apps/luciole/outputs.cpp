@@ -77,15 +77,20 @@ void addOutputOptions(CLI::App& command, OutputOptions& options) {
 
 void checkOutputs(const OutputOptions& options) {
     std::set<fs::path> seen;
+    const auto check = [&](const fs::path& file) {
+        requireWritable(file);
+        std::error_code code;
+        const fs::path resolved = fs::weakly_canonical(fs::absolute(file, code), code);
+        if (!code && !seen.insert(resolved).second)
+            throw Error(ErrorKind::usage, fmt::format("{}: named twice as output", file.string()));
+    };
     for (const fs::path file : options.files) {
         if (!isExr(file) && !hasExtension(file, ".png"))
             throw Error(ErrorKind::usage, fmt::format("{}: expected a name that ends in .png or .exr", file.string()));
-        if (!seen.insert(fs::absolute(file).lexically_normal()).second)
-            throw Error(ErrorKind::usage, fmt::format("{}: named twice as output", file.string()));
-        requireWritable(file);
+        check(file);
     }
     checkAovs(options);
-    if (!options.graphFile.empty()) requireWritable(options.graphFile);
+    if (!options.graphFile.empty()) check(options.graphFile);
 }
 
 void writeOutputs(const OutputOptions& options, const Frame& frame) {
@@ -111,7 +116,12 @@ void requireWritable(const fs::path& file) {
                     fmt::format("{}: can't write: {}", file.string(), std::generic_category().message(code)));
     };
     std::error_code code;
-    if (fs::is_directory(file, code)) fail(EISDIR);
+    const fs::file_status target = fs::status(file, code);
+    if (fs::is_directory(target)) fail(EISDIR);
+    if (target.type() == fs::file_type::none) fail(code.value());  // a name that is too long, a loop of links
+    if (fs::exists(target) && !fs::is_regular_file(target))
+        throw Error(ErrorKind::io, fmt::format("{}: can't write: not a regular file", file.string()));
+    if (fs::exists(target) && ::access(file.c_str(), W_OK) != 0) fail(errno);
     const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
     const fs::file_status status = fs::status(folder, code);
     if (!fs::is_directory(status)) fail(fs::exists(status) ? ENOTDIR : code.value());

@@ -82,7 +82,7 @@ Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, 
         });
     }
     RendererOptions rendererOptions = options.renderer;
-    rendererOptions.onMessage = [](std::string_view message) { fmt::print(stderr, "luciole: {}\n", message); };
+    rendererOptions.onMessage = [](std::string_view message) { say(fmt::format("luciole: {}\n", message)); };
     Renderer renderer(rendererOptions);
     options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
     renderer.setScene(scene);
@@ -113,7 +113,7 @@ void run(const RenderOptions& options) {
     options.console.warn(frame.stats.warnings);
     writeOutputs(options.output, frame);
     options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
-    if (options.stats) fmt::print(stderr, "{}", statisticsTable(frame.stats));
+    if (options.stats) say(statisticsTable(frame.stats));
     if (options.json) fmt::print("{}\n", statisticsJson(frame, settings));
 }
 

@@ -223,6 +223,9 @@ Bounds boundsOf(const Scene& scene);
 
 uint64_t triangleCount(const Scene& scene);
 
+/// False for a singular `worldFromObject`: it leaves no inside and no normals, so the object is not drawn.
+bool isDrawn(const Object& object);
+
 /// Checks every rule stated in this header.
 /// \throws Error(scene) naming the element, the rule and what was found; Error(limit) for the kMax* constants
 void validate(const Scene& scene);

@@ -44,6 +44,11 @@ static_assert(std::size(kTable) == size_t(Access::hostRead) + 1);
 
 const AccessInfo& infoOf(Access access) { return kTable[size_t(access)]; }
 
+bool isAttachment(Access access) {
+    return access == Access::colorWrite || access == Access::colorBlend || access == Access::depthWrite ||
+           access == Access::depthTest;
+}
+
 vk::ImageLayout layoutOf(Access access, vk::Format format) {
     const bool sampled = access == Access::fragmentSampled || access == Access::computeSampled;
     return sampled && format == vk::Format::eD32Sfloat ? Layout::eDepthReadOnlyOptimal : infoOf(access).layout;

@@ -5,7 +5,7 @@ namespace luciole::frame {
 
 /// How a pass touches a resource. One table (access.cpp) maps each to stages, access mask, layout and usage.
 enum class Access : uint8_t {
-    colorWrite,           ///< colour attachment, cleared or wholly overwritten
+    colorWrite,           ///< colour attachment, not blended
     colorBlend,           ///< colour attachment, blended over what is there
     depthWrite,           ///< depth attachment, tested and written
     depthTest,            ///< depth attachment, tested only
@@ -13,7 +13,7 @@ enum class Access : uint8_t {
     fragmentStorageRead,  ///< storage buffer in vertex and fragment shaders
     computeSampled,
     computeStorageRead,
-    computeStorageWrite,  ///< storage image or buffer, written (and perhaps read) by compute
+    computeStorageWrite,  ///< written (and perhaps read) by compute
     transferRead,
     transferWrite,
     hostRead,             ///< by the host after the frame
@@ -29,6 +29,8 @@ struct AccessInfo {
     bool writes;
 };
 const AccessInfo& infoOf(Access access);
+
+bool isAttachment(Access access);
 
 /// The layout of an image of `format` under `access`: sampled depth stays in the layout that allows testing, too.
 vk::ImageLayout layoutOf(Access access, vk::Format format);

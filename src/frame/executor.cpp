@@ -2,25 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 #include "frame/pass_context.hpp"
 #include "gpu/bindings.shared.h"
 
 namespace luciole::frame {
-namespace {
-
-bool isAttachment(Access access) {
-    return access == Access::colorWrite || access == Access::colorBlend || access == Access::depthWrite ||
-           access == Access::depthTest;
-}
-
-vk::DescriptorType descriptorType(const Resource& resource, Access access) {
-    if (!resource.isImage()) return vk::DescriptorType::eStorageBuffer;
-    return access == Access::fragmentSampled || access == Access::computeSampled ? vk::DescriptorType::eCombinedImageSampler
-                                                                                  : vk::DescriptorType::eStorageImage;
-}
-
-}  // namespace
-
 Executor::Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph)
     : context_(context), pipelines_(pipelines), graph_(std::move(graph)), compiled_(graph_.compile()) {
     createResources();
@@ -63,36 +51,20 @@ vk::Buffer Executor::bufferHandle(uint32_t resource) const {
 void Executor::createPassSets() {
     const auto passes = uint32_t(compiled_.passes.size());
     if (passes == 0) return;
-    using namespace shared;
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, passes * kPassSampledCount},
-                                            {vk::DescriptorType::eStorageImage, passes * kPassStorageImageCount},
-                                            {vk::DescriptorType::eStorageBuffer, passes * kPassStorageBufferCount}};
-    pool_ = vk::raii::DescriptorPool(context_.device(), {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                         .maxSets = passes,
-                                                         .poolSizeCount = uint32_t(std::size(sizes)),
-                                                         .pPoolSizes = sizes});
-    const std::vector<vk::DescriptorSetLayout> layouts(passes, pipelines_.passSetLayout());
-    passSets_ = vk::raii::DescriptorSets(
-        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = passes, .pSetLayouts = layouts.data()});
+    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, passes * shared::kPassSampledCount};
+    pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = passes, .poolSizeCount = 1, .pPoolSizes = &size});
+    passSets_ = gpu::allocateSets(context_, pool_, pipelines_.passSetLayout(), passes);
     for (uint32_t i = 0; i < passes; ++i)
         for (const Use& use : graph_.passes()[compiled_.passes[i].pass].uses) {
             if (use.binding == kNoBinding) continue;
-            const Resource& resource = graph_.resources()[use.resource];
-            vk::DescriptorImageInfo image;
-            vk::DescriptorBufferInfo bufferInfo{.range = VK_WHOLE_SIZE};
-            if (resource.isImage()) {
-                image.imageView = *images_.at(use.resource).view;
-                image.imageLayout = layoutOf(use.access, resource.image.format);
-            } else {
-                bufferInfo.buffer = bufferHandle(use.resource);
-            }
+            const vk::DescriptorImageInfo image{.imageView = *images_.at(use.resource).view,
+                                                .imageLayout = layoutOf(use.access, graph_.resources()[use.resource].image.format)};
             context_.device().updateDescriptorSets(
-                vk::WriteDescriptorSet{.dstSet = *passSets_[i],
-                                       .dstBinding = use.binding,
+                vk::WriteDescriptorSet{.dstSet = passSets_[i],
+                                       .dstBinding = shared::kPassSampled + use.binding,
                                        .descriptorCount = 1,
-                                       .descriptorType = descriptorType(resource, use.access),
-                                       .pImageInfo = &image,
-                                       .pBufferInfo = &bufferInfo},
+                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                       .pImageInfo = &image},
                 nullptr);
         }
 }
@@ -149,11 +121,10 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
         if (!isAttachment(use.access)) continue;
         const Resource& resource = graph_.resources()[use.resource];
         extent = resource.image.extent;
-        const bool keeps = use.access == Access::colorBlend || use.access == Access::depthWrite || use.access == Access::depthTest;
         const vk::RenderingAttachmentInfo attachment{
             .imageView = *images_.at(use.resource).view,
             .imageLayout = layoutOf(use.access, resource.image.format),
-            .loadOp = use.clear ? vk::AttachmentLoadOp::eClear : keeps ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,
+            .loadOp = use.clear ? vk::AttachmentLoadOp::eClear : use.overwrites ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eLoad,
             .storeOp = use.access == Access::depthTest ? vk::AttachmentStoreOp::eNone : vk::AttachmentStoreOp::eStore,
             .clearValue = use.clear.value_or(vk::ClearValue{})};
         if (use.access == Access::depthWrite || use.access == Access::depthTest) {
@@ -165,12 +136,9 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
         }
     }
     const bool renders = extent.width != 0;
-    const vk::DescriptorSet sets[] = {frameSet, *passSets_[index]};
-    for (const auto point : {vk::PipelineBindPoint::eGraphics, vk::PipelineBindPoint::eCompute})
-        if (renders == (point == vk::PipelineBindPoint::eGraphics))
-            commands.bindDescriptorSets(point, pipelines_.layout(), 0, sets, nullptr);
-    PassContext context(commands, pipelines_, *this, colorFormats, depthFormat, extent);
+    PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, extent);
     if (renders) {
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0, {frameSet, passSets_[index]}, nullptr);
         commands.beginRendering({.renderArea = {{0, 0}, extent},
                                  .layerCount = 1,
                                  .colorAttachmentCount = uint32_t(colors.size()),
@@ -191,6 +159,7 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
 void Executor::record(vk::DescriptorSet frameSet, bool measure) {
     const auto& commands = commandBuffers_.front();
     const auto passes = uint32_t(compiled_.passes.size());
+    commands.reset();  // an exception in the last frame may have left it half recorded
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (measure) {
         commands.resetQueryPool(*queries_, 0, passes + 1);
@@ -209,15 +178,16 @@ void Executor::record(vk::DescriptorSet frameSet, bool measure) {
 }
 
 void Executor::run(vk::DescriptorSet frameSet, bool measure) {
-    record(frameSet, measure);
+    const bool timed = measure && context_.timestampMask() != 0;
+    record(frameSet, timed);
     context_.submitAndWait(commandBuffers_.front());
     passMs_.clear();
-    if (!measure) return;
+    if (!timed) return;
     const auto count = uint32_t(compiled_.passes.size()) + 1;
     const auto [result, ticks] = queries_.getResults<uint64_t>(0, count, count * sizeof(uint64_t), sizeof(uint64_t),
                                                                vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     for (uint32_t i = 0; i + 1 < count; ++i)
-        passMs_.push_back(double(ticks[i + 1] - ticks[i]) * double(context_.limits().timestampPeriod) * 1e-6);
+        passMs_.push_back(double((ticks[i + 1] - ticks[i]) & context_.timestampMask()) * double(context_.limits().timestampPeriod) * 1e-6);
 }
 
 std::vector<PassStats> Executor::stats() const {
@@ -226,7 +196,9 @@ std::vector<PassStats> Executor::stats() const {
         const Pass& pass = graph_.passes()[compiled_.passes[i].pass];
         PassStats row{.name = pass.name};
         if (!passMs_.empty()) row.ms = passMs_[i];
-        for (const Use& use : pass.uses) row.bytes += graph_.resources()[use.resource].bytes();
+        std::set<uint32_t> touched;
+        for (const Use& use : pass.uses)
+            if (touched.insert(use.resource).second) row.bytes += graph_.resources()[use.resource].bytes();
         stats.push_back(std::move(row));
     }
     return stats;

@@ -12,9 +12,9 @@ class Executor {
 public:
     Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph);
 
-    /// Runs one frame and waits for it. \param frameSet bound as set 0 of every pass
+    /// Runs one frame and waits for it. \param frameSet bound as set 0 of every pass that draws
     /// \param measure timestamps each pass, with a full barrier after each timestamp: without it the times of passes
-    ///        that the driver overlaps or merges are wrong
+    ///        that the driver overlaps or merges are wrong. Without effect on a queue that has no timestamps
     void run(vk::DescriptorSet frameSet, bool measure);
 
     /// What the frame left in a buffer declared as an output. Host-visible.
@@ -44,7 +44,7 @@ private:
     std::map<uint32_t, gpu::Buffer> buffers_;
     std::map<uint32_t, gpu::MappedBuffer> hostBuffers_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    std::vector<vk::raii::DescriptorSet> passSets_;
+    std::vector<vk::DescriptorSet> passSets_;  // freed with their pool
     vk::raii::QueryPool queries_ = nullptr;
     vk::raii::CommandBuffers commandBuffers_ = nullptr;
     std::vector<double> passMs_;  // empty until measured

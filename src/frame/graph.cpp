@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "frame/hazards.hpp"
+#include "gpu/bindings.shared.h"
 #include "gpu/resources.hpp"
 
 namespace luciole::frame {
@@ -52,6 +53,18 @@ std::vector<bool> passesThatMatter(const FrameGraph& graph, std::vector<bool> wa
     return matters;
 }
 
+void checkAttachments(const FrameGraph& graph, const Pass& pass) {
+    const Resource* first = nullptr;
+    for (const Use& use : pass.uses) {
+        if (!isAttachment(use.access)) continue;
+        const Resource& target = graph.resources()[use.resource];
+        if (!first) first = &target;
+        if (first->image.extent != target.image.extent)
+            misuse(pass, target, fmt::format("expected the size of {}, {}x{}, found {}x{}", first->name, first->image.extent.width,
+                                             first->image.extent.height, target.image.extent.width, target.image.extent.height));
+    }
+}
+
 }  // namespace
 
 uint64_t Resource::bytes() const {
@@ -72,30 +85,51 @@ std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass
         combined->stages |= info.stages;
         combined->access |= info.access;
         combined->writes |= info.writes;
-        combined->overwrites |= use.access == Access::colorWrite || use.access == Access::transferWrite || use.clear.has_value();
+        combined->overwrites |= use.overwrites;
     }
     return combined;
 }
 
-PassBuilder& PassBuilder::use(uint32_t resource, Access access, uint32_t binding, bool writes,
-                              std::optional<vk::ClearValue> clear) {
+PassBuilder& PassBuilder::use(const Use& use, bool isImage, bool writes) {
     Pass& pass = graph_.passes_[pass_];
-    const Resource& target = graph_.resources_.at(resource);
-    const AccessInfo& info = infoOf(access);
+    const AccessInfo& info = infoOf(use.access);
+    if (use.resource >= graph_.resources_.size())
+        throw std::logic_error(fmt::format("frame graph: pass {}: {} of a handle that nothing made", pass.name, info.name));
+    const Resource& target = graph_.resources_[use.resource];
     if (info.writes != writes)
         misuse(pass, target, fmt::format("{} declared as a {}", info.name, writes ? "write" : "read"));
-    if (target.isImage() ? !info.imageUsage : !info.bufferUsage)
-        misuse(pass, target, fmt::format("{} is not for {}", info.name, target.isImage() ? "images" : "buffers"));
-    pass.uses.push_back({resource, access, binding, clear});
+    if (target.isImage() != isImage || (isImage ? !info.imageUsage : !info.bufferUsage))
+        misuse(pass, target, fmt::format("{} is not for {}", info.name, isImage ? "images" : "buffers"));
+    const bool needsContent = use.access == Access::colorBlend || use.access == Access::depthWrite;
+    if (needsContent && use.overwrites && !use.clear)
+        misuse(pass, target, fmt::format("{} needs what is there: update or clear it", info.name));
+    const bool sampled = use.access == Access::fragmentSampled || use.access == Access::computeSampled;
+    if (sampled ? use.binding >= shared::kPassSampledCount : use.binding != kNoBinding)
+        misuse(pass, target, fmt::format("{}: expected {}", info.name, sampled ? "a slot for sampled images" : "no slot"));
+    pass.uses.push_back(use);
     return *this;
 }
 
-PassBuilder& PassBuilder::read(ImageId image, Access access, uint32_t binding) { return use(image.index, access, binding, false); }
-PassBuilder& PassBuilder::read(BufferId buffer, Access access, uint32_t binding) { return use(buffer.index, access, binding, false); }
-PassBuilder& PassBuilder::write(ImageId image, Access access, uint32_t binding) { return use(image.index, access, binding, true); }
-PassBuilder& PassBuilder::write(BufferId buffer, Access access, uint32_t binding) { return use(buffer.index, access, binding, true); }
+PassBuilder& PassBuilder::read(ImageId image, Access access, uint32_t binding) {
+    return use({.resource = image.index, .access = access, .binding = binding}, true, false);
+}
+PassBuilder& PassBuilder::read(BufferId buffer, Access access) {
+    return use({.resource = buffer.index, .access = access}, false, false);
+}
+PassBuilder& PassBuilder::write(ImageId image, Access access) {
+    return use({.resource = image.index, .access = access, .overwrites = true}, true, true);
+}
+PassBuilder& PassBuilder::write(BufferId buffer, Access access) {
+    return use({.resource = buffer.index, .access = access, .overwrites = true}, false, true);
+}
+PassBuilder& PassBuilder::update(ImageId image, Access access) {
+    return use({.resource = image.index, .access = access}, true, true);
+}
+PassBuilder& PassBuilder::update(BufferId buffer, Access access) {
+    return use({.resource = buffer.index, .access = access}, false, true);
+}
 PassBuilder& PassBuilder::clear(ImageId image, Access access, vk::ClearValue value) {
-    return use(image.index, access, kNoBinding, true, value);
+    return use({.resource = image.index, .access = access, .overwrites = true, .clear = value}, true, true);
 }
 void PassBuilder::record(std::function<void(PassContext&)> record) { graph_.passes_[pass_].record = std::move(record); }
 
@@ -125,6 +159,7 @@ CompiledGraph FrameGraph::compile() const {
     const std::vector<bool> matters = passesThatMatter(*this, wanted);
     for (uint32_t i = 0; i < passes_.size(); ++i)
         if (matters[i]) compiled.passes.push_back({i, {}});
+    for (const Pass& pass : passes_) checkAttachments(*this, pass);
 
     for (uint32_t resource = 0; resource < resources_.size(); ++resource) {
         const auto epochs = epochsOf(*this, compiled.passes, resource);

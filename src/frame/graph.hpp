@@ -36,11 +36,12 @@ struct Resource {
 
 inline constexpr uint32_t kNoBinding = ~0u;
 
-/// One access of one pass. `binding`: the slot in the pass's descriptor set (see pass_context.hpp), if it is a shader's.
+/// One access of one pass. `binding`: the slot in the pass's descriptor set (bindings.shared.h), if a shader samples it.
 struct Use {
     uint32_t resource;
     Access access;
     uint32_t binding = kNoBinding;
+    bool overwrites = false;  ///< what was there before does not matter
     std::optional<vk::ClearValue> clear;
 };
 
@@ -56,16 +57,21 @@ class FrameGraph;
 class PassBuilder {
 public:
     PassBuilder& read(ImageId image, Access access, uint32_t binding = kNoBinding);
-    PassBuilder& read(BufferId buffer, Access access, uint32_t binding = kNoBinding);
-    PassBuilder& write(ImageId image, Access access, uint32_t binding = kNoBinding);
-    PassBuilder& write(BufferId buffer, Access access, uint32_t binding = kNoBinding);
-    PassBuilder& clear(ImageId image, Access access, vk::ClearValue value);  ///< an attachment that starts at `value`
+    PassBuilder& read(BufferId buffer, Access access);
+    /// The pass makes all of the content; nothing before it survives.
+    PassBuilder& write(ImageId image, Access access);
+    PassBuilder& write(BufferId buffer, Access access);
+    /// The pass adds to, or changes parts of, what is there.
+    PassBuilder& update(ImageId image, Access access);
+    PassBuilder& update(BufferId buffer, Access access);
+    /// An attachment that starts at `value`.
+    PassBuilder& clear(ImageId image, Access access, vk::ClearValue value);
     void record(std::function<void(PassContext&)> record);
 
 private:
     friend class FrameGraph;
     PassBuilder(FrameGraph& graph, uint32_t pass) : graph_(graph), pass_(pass) {}
-    PassBuilder& use(uint32_t resource, Access access, uint32_t binding, bool writes, std::optional<vk::ClearValue> clear = {});
+    PassBuilder& use(const Use& use, bool isImage, bool writes);
     FrameGraph& graph_;
     uint32_t pass_;
 };
@@ -100,7 +106,8 @@ public:
 
     /// Drops, orders and synchronises.
     /// \throws std::logic_error naming the pass and the resource: read before anything wrote it, one pass using a
-    ///         resource in two layouts, a written access declared as read or the reverse, a hazard left (see hazards.hpp)
+    ///         resource in two layouts, attachments of two sizes, a hazard left (see hazards.hpp). Declarations throw
+    ///         likewise: an access with the wrong verb or resource, a sampled image without its slot, an empty handle
     CompiledGraph compile() const;
 
     const std::vector<Pass>& passes() const { return passes_; }

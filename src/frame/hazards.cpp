@@ -2,17 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace luciole::frame {
 namespace {
 
+/// Where, and to which kinds of access, a write can be seen.
+struct Visible {
+    vk::PipelineStageFlags2 stages;
+    vk::AccessFlags2 access;
+};
+
 /// An access that has happened, and what is known to come after it.
 struct Past {
-    const Pass* pass;
+    std::string pass;
     CombinedUse use;
     vk::PipelineStageFlags2 orderedBefore;  ///< stages of later commands that wait for it
     bool available = false;                 ///< its writes were flushed
-    vk::PipelineStageFlags2 visibleStages;  ///< where, and to which accesses, its writes can be seen
-    vk::AccessFlags2 visibleAccess;
+    std::vector<Visible> visible;
 };
 
 template <typename Flags>
@@ -20,60 +27,90 @@ bool contains(Flags whole, Flags part) {
     return (whole & part) == part;
 }
 
-void apply(const Barrier& barrier, std::vector<Past>& past) {
-    for (Past& earlier : past) {
-        const bool direct = contains(barrier.srcStages, earlier.use.stages);
-        const bool chained = bool(earlier.orderedBefore & barrier.srcStages);
-        if (!direct && !chained) continue;
-        earlier.orderedBefore |= barrier.dstStages;
-        if (!earlier.use.writes) continue;
-        earlier.available |= direct && contains(barrier.srcAccess, writesOf(earlier.use.access));
-        if (!earlier.available) continue;
-        earlier.visibleStages |= barrier.dstStages;
-        earlier.visibleAccess |= barrier.dstAccess;
-    }
+bool waitsFor(const Barrier& barrier, const Past& earlier) {
+    return contains(barrier.srcStages, earlier.use.stages) || (earlier.orderedBefore & barrier.srcStages);
 }
 
-std::string describe(const char* kind, const Past& earlier, const Pass& later, const Resource& resource) {
-    return fmt::format("{} hazard on {} between passes {} and {}", kind, resource.name, earlier.pass->name, later.name);
-}
+/// Follows one resource through the frame.
+class Tracker {
+public:
+    Tracker(const Resource& resource, std::vector<std::string>& hazards) : resource_(resource), hazards_(hazards) {}
+
+    void barrier(const Barrier& barrier, const std::string& before) {
+        if (resource_.isImage()) transition(barrier, before);
+        for (Past& earlier : past_) {
+            if (!waitsFor(barrier, earlier)) continue;
+            earlier.orderedBefore |= barrier.dstStages;
+            if (!earlier.use.writes) continue;
+            const bool direct = contains(barrier.srcStages, earlier.use.stages);
+            earlier.available |= direct && contains(barrier.srcAccess, writesOf(earlier.use.access));
+            if (earlier.available) earlier.visible.push_back({barrier.dstStages, barrier.dstAccess});
+        }
+    }
+
+    void use(const CombinedUse& use, const std::string& pass) {
+        if (resource_.isImage() && layout_ != use.layout)
+            report("layout of {} in pass {}: needs {}, is in {}", resource_.name, pass, vk::to_string(use.layout), vk::to_string(layout_));
+        if (!use.overwrites && discarded_)
+            report("content of {} is needed by pass {} and was discarded by a barrier", resource_.name, pass);
+        for (const Past& earlier : past_) {
+            if (!earlier.use.writes && !use.writes) continue;
+            const char* kind = !earlier.use.writes ? "write-after-read" : use.writes ? "write-after-write" : "read-after-write";
+            const bool ordered = contains(earlier.orderedBefore, use.stages);
+            const bool seen = std::ranges::any_of(earlier.visible, [&](const Visible& scope) {
+                return contains(scope.stages, use.stages) && contains(scope.access, use.access);
+            });
+            if (!ordered || (earlier.use.writes && !seen))
+                report("{} hazard on {} between passes {} and {}", kind, resource_.name, earlier.pass, pass);
+        }
+        // What comes after a write comes after all that the write came after.
+        if (use.writes) past_.clear();
+        past_.push_back({.pass = pass, .use = use});
+        discarded_ = false;
+    }
+
+private:
+    /// A layout transition writes the image: it must come after every access so far.
+    void transition(const Barrier& barrier, const std::string& before) {
+        if (barrier.oldLayout != vk::ImageLayout::eUndefined && barrier.oldLayout != layout_)
+            report("layout of {} before pass {}: the barrier expects {}, the image is in {}", resource_.name, before,
+                   vk::to_string(barrier.oldLayout), vk::to_string(layout_));
+        if (barrier.oldLayout != barrier.newLayout)
+            for (const Past& earlier : past_)
+                if (!waitsFor(barrier, earlier))
+                    report("the layout transition of {} before pass {} does not wait for pass {}", resource_.name, before, earlier.pass);
+        discarded_ |= barrier.oldLayout == vk::ImageLayout::eUndefined;
+        layout_ = barrier.newLayout;
+    }
+
+    template <typename... Arguments>
+    void report(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+        hazards_.push_back(fmt::format(format, std::forward<Arguments>(arguments)...));
+    }
+
+    const Resource& resource_;
+    std::vector<std::string>& hazards_;
+    std::vector<Past> past_;
+    vk::ImageLayout layout_ = vk::ImageLayout::eUndefined;
+    bool discarded_ = false;
+};
 
 }  // namespace
 
 std::vector<std::string> findHazards(const FrameGraph& graph, const CompiledGraph& compiled) {
     std::vector<std::string> hazards;
     for (uint32_t r = 0; r < graph.resources().size(); ++r) {
-        const Resource& resource = graph.resources()[r];
-        std::vector<Past> past;
-        auto layout = vk::ImageLayout::eUndefined;
+        Tracker tracker(graph.resources()[r], hazards);
         for (const CompiledPass& compiledPass : compiled.passes) {
             const Pass& pass = graph.passes()[compiledPass.pass];
-            for (const Barrier& barrier : compiledPass.barriers) {
-                if (barrier.resource != r) continue;
-                apply(barrier, past);
-                if (!resource.isImage()) continue;
-                if (barrier.oldLayout != vk::ImageLayout::eUndefined && barrier.oldLayout != layout)
-                    hazards.push_back(fmt::format("layout of {} before pass {}: the barrier expects {}, the image is in {}",
-                                                  resource.name, pass.name, vk::to_string(barrier.oldLayout), vk::to_string(layout)));
-                layout = barrier.newLayout;
-            }
-            const auto use = combinedUse(graph, pass, r);
-            if (!use) continue;
-            if (resource.isImage() && layout != use->layout)
-                hazards.push_back(fmt::format("layout of {} in pass {}: needs {}, is in {}", resource.name, pass.name,
-                                              vk::to_string(use->layout), vk::to_string(layout)));
-            for (const Past& earlier : past) {
-                if (!earlier.use.writes && !use->writes) continue;
-                const char* kind = !earlier.use.writes ? "write-after-read" : use->writes ? "write-after-write" : "read-after-write";
-                const bool ordered = contains(earlier.orderedBefore, use->stages);
-                const bool visible = !earlier.use.writes || (contains(earlier.visibleStages, use->stages) &&
-                                                             contains(earlier.visibleAccess, use->access));
-                if (!ordered || !visible) hazards.push_back(describe(kind, earlier, pass, resource));
-            }
-            // Whoever is ordered after a write is ordered after what that write was ordered after.
-            if (use->writes) past.clear();
-            past.push_back({.pass = &pass, .use = *use});
+            for (const Barrier& barrier : compiledPass.barriers)
+                if (barrier.resource == r) tracker.barrier(barrier, pass.name);
+            if (const auto use = combinedUse(graph, pass, r)) tracker.use(*use, pass.name);
         }
+        for (const Barrier& barrier : compiled.finalBarriers)
+            if (barrier.resource == r) tracker.barrier(barrier, "host");
+        const AccessInfo& host = infoOf(Access::hostRead);
+        if (graph.isOutput(r)) tracker.use({.stages = host.stages, .access = host.access}, "host");
     }
     return hazards;
 }

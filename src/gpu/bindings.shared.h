@@ -1,7 +1,7 @@
 // Descriptor sets and bindings, as Pipelines lays them out. Read by both compilers.
 #ifndef LUCIOLE_BINDINGS_SHARED_H
 #define LUCIOLE_BINDINGS_SHARED_H
-#include "render/shaders/shared.h"
+#include "shared.h"
 SHARED_BEGIN
 const uint kFrameSet = 0u;
 const uint kFrameView = 0u;       // uniform buffer: ViewConstants
@@ -14,12 +14,8 @@ const uint kFrameFunctions = 6u;  // sampled image: the function table
 const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once more
 
 const uint kPassSet = 1u;
-const uint kPassSampled = 0u;     // 8 sampled images
+const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names
 const uint kPassSampledCount = 8u;
-const uint kPassStorageImage = 8u;    // 4 storage images
-const uint kPassStorageImageCount = 4u;
-const uint kPassStorageBuffer = 12u;  // 6 storage buffers
-const uint kPassStorageBufferCount = 6u;
 
 const uint kMaterialSet = 2u;     // 5 sampled images
 const uint kMaterialTextures = 5u;

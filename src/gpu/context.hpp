@@ -25,6 +25,8 @@ public:
     const vk::raii::Queue& queue() const { return queue_; }
     const vk::raii::CommandPool& commandPool() const { return commandPool_; }
     bool labels() const { return labels_; }
+    uint64_t maxBufferBytes() const { return maxBufferBytes_; }
+    uint64_t timestampMask() const { return timestampMask_; }  ///< valid bits of a timestamp; 0: the queue has none
 
     /// Allocates memory for `requirements` with at least `wanted`; counts it until the Allocation dies.
     /// \throws Error(deviceLost) if the device has no such memory left
@@ -45,6 +47,8 @@ public:
         uint64_t bytes_ = 0;
     };
     Allocation allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const;
+    /// Whether the device has such memory at all.
+    bool hasMemory(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags wanted) const;
 
     uint64_t allocatedBytes() const { return allocatedBytes_; }
     uint64_t peakBytes() const { return peakBytes_; }
@@ -62,7 +66,7 @@ public:
     /// Records with `record`, submits, and waits.
     void runOnce(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 
-    /// Submits `commands` and waits. \throws Error(deviceLost) after a minute without an answer
+    /// Submits `commands` and waits as long as it takes.
     void submitAndWait(const vk::raii::CommandBuffer& commands) const;
 
 private:
@@ -78,6 +82,8 @@ private:
     vk::PhysicalDeviceLimits limits_;
     DeviceInfo info_;
     bool labels_ = false;
+    uint64_t maxBufferBytes_ = 0;
+    uint64_t timestampMask_ = 0;
     mutable uint64_t allocatedBytes_ = 0;
     mutable uint64_t peakBytes_ = 0;
 };

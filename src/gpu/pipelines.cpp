@@ -8,12 +8,10 @@ namespace luciole::gpu {
 namespace {
 
 using Type = vk::DescriptorType;
-const auto kAllStages =
-    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 
 void add(std::vector<vk::DescriptorSetLayoutBinding>& bindings, uint32_t first, uint32_t count, Type type) {
     for (uint32_t i = 0; i < count; ++i)
-        bindings.push_back({.binding = first + i, .descriptorType = type, .descriptorCount = 1, .stageFlags = kAllStages});
+        bindings.push_back({.binding = first + i, .descriptorType = type, .descriptorCount = 1, .stageFlags = kStages});
 }
 
 vk::raii::DescriptorSetLayout makeLayout(const Context& context, const std::vector<vk::DescriptorSetLayoutBinding>& bindings) {
@@ -31,8 +29,6 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
     // every slot and would follow a null pointer.
     for (auto& binding : pass) binding.pImmutableSamplers = &texelSampler;
-    add(pass, kPassStorageImage, kPassStorageImageCount, Type::eStorageImage);
-    add(pass, kPassStorageBuffer, kPassStorageBufferCount, Type::eStorageBuffer);
     add(material, 0, kMaterialTextures, Type::eCombinedImageSampler);
     std::vector<vk::raii::DescriptorSetLayout> layouts;
     for (const auto* bindings : {&frame, &pass, &material}) layouts.push_back(makeLayout(context, *bindings));
@@ -65,6 +61,15 @@ constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
 
 }  // namespace
 
+std::vector<vk::DescriptorSet> allocateSets(const Context& context, const vk::raii::DescriptorPool& pool,
+                                            vk::DescriptorSetLayout layout, uint32_t count) {
+    const std::vector<vk::DescriptorSetLayout> layouts(count, layout);
+    // Not vk::raii::DescriptorSets: each of those is freed by a call of its own.
+    return (*context.device())
+        .allocateDescriptorSets({.descriptorPool = *pool, .descriptorSetCount = count, .pSetLayouts = layouts.data()},
+                                *context.device().getDispatcher());
+}
+
 Pipelines::Pipelines(const Context& context, ShaderLibrary shaders)
     : context_(context),
       shaders_(shaders),
@@ -75,7 +80,7 @@ Pipelines::Pipelines(const Context& context, ShaderLibrary shaders)
       setLayouts_(makeSetLayouts(context, *texelSampler_)) {
     std::vector<vk::DescriptorSetLayout> handles;
     for (const auto& layout : setLayouts_) handles.push_back(*layout);
-    const vk::PushConstantRange push{kAllStages, 0, shared::kPushBytes};
+    const vk::PushConstantRange push{kStages, 0, shared::kPushBytes};
     layout_ = vk::raii::PipelineLayout(context.device(), {.setLayoutCount = uint32_t(handles.size()),
                                                           .pSetLayouts = handles.data(),
                                                           .pushConstantRangeCount = 1,
@@ -85,8 +90,8 @@ Pipelines::Pipelines(const Context& context, ShaderLibrary shaders)
 vk::Pipeline Pipelines::get(const PipelineKey& key) {
     auto found = pipelines_.find(key);
     if (found == pipelines_.end()) {
-        found = pipelines_.emplace(key, key.vertex.empty() ? makeCompute(key) : makeGraphics(key)).first;
-        context_.name(*found->second, key.main.empty() ? key.vertex : key.main);
+        found = pipelines_.emplace(key, make(key)).first;
+        context_.name(*found->second, key.fragment.empty() ? key.vertex : key.fragment);
     }
     return *found->second;
 }
@@ -96,18 +101,7 @@ vk::raii::ShaderModule Pipelines::module(const std::string& name) const {
     return {context_.device(), {.codeSize = code.size_bytes(), .pCode = code.data()}};
 }
 
-vk::raii::Pipeline Pipelines::makeCompute(const PipelineKey& key) const {
-    const Specialization constants(key.constants);
-    const auto shader = module(key.main);
-    return {context_.device(), nullptr,
-            vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
-                                                    .module = *shader,
-                                                    .pName = "main",
-                                                    .pSpecializationInfo = &constants.info},
-                                          .layout = *layout_}};
-}
-
-vk::raii::Pipeline Pipelines::makeGraphics(const PipelineKey& key) const {
+vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
     const Specialization constants(key.constants);
     std::vector<vk::raii::ShaderModule> modules;
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
@@ -117,7 +111,7 @@ vk::raii::Pipeline Pipelines::makeGraphics(const PipelineKey& key) const {
         stages.push_back({.stage = stage, .module = *modules.back(), .pName = "main", .pSpecializationInfo = &constants.info});
     };
     addStage(key.vertex, vk::ShaderStageFlagBits::eVertex);
-    addStage(key.main, vk::ShaderStageFlagBits::eFragment);
+    addStage(key.fragment, vk::ShaderStageFlagBits::eFragment);
 
     vk::PipelineVertexInputStateCreateInfo vertices;
     if (key.meshVertices)

@@ -14,8 +14,8 @@ using ShaderLibrary = std::span<const uint32_t> (*)(std::string_view name);
 
 /// What tells one pipeline from another. Cull mode, front face and depth state are dynamic and not in here.
 struct PipelineKey {
-    std::string vertex;                 ///< empty for compute
-    std::string main;                   ///< fragment or compute shader; may be empty for a depth-only pass
+    std::string vertex;
+    std::string fragment;               ///< may be empty for a depth-only pass
     bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
     bool additive = false;              ///< colour = source + destination
     std::vector<uint32_t> constants;    ///< specialization constants 0, 1, ...
@@ -23,6 +23,13 @@ struct PipelineKey {
     vk::Format depth = vk::Format::eUndefined;
     auto operator<=>(const PipelineKey&) const = default;
 };
+
+/// Stages that see descriptors and push constants.
+inline constexpr vk::ShaderStageFlags kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+
+/// `count` sets of one layout, freed with their pool.
+std::vector<vk::DescriptorSet> allocateSets(const Context& context, const vk::raii::DescriptorPool& pool,
+                                            vk::DescriptorSetLayout layout, uint32_t count);
 
 /// Pipelines by key, made when first asked for. All share one layout, so that sets stay bound across pipelines:
 ///   set 0  the frame: tables that every pass may read (kFrame* below)
@@ -37,11 +44,9 @@ public:
     vk::DescriptorSetLayout frameSetLayout() const { return *setLayouts_[0]; }
     vk::DescriptorSetLayout passSetLayout() const { return *setLayouts_[1]; }
     vk::DescriptorSetLayout materialSetLayout() const { return *setLayouts_[2]; }
-    size_t size() const { return pipelines_.size(); }
 
 private:
-    vk::raii::Pipeline makeGraphics(const PipelineKey& key) const;
-    vk::raii::Pipeline makeCompute(const PipelineKey& key) const;
+    vk::raii::Pipeline make(const PipelineKey& key) const;
     vk::raii::ShaderModule module(const std::string& name) const;
 
     const Context& context_;

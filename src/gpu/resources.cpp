@@ -10,13 +10,14 @@ namespace luciole::gpu {
 
 namespace {
 
-vk::MemoryPropertyFlags propertiesOf(Residence residence) {
+/// What serves `residence` best, of what the device has: Vulkan guarantees host-visible coherent memory and device-local
+/// memory, not their combinations.
+vk::MemoryPropertyFlags propertiesOf(const Context& context, const vk::MemoryRequirements& requirements, Residence residence) {
     using Property = vk::MemoryPropertyFlagBits;
-    switch (residence) {
-        case Residence::hostVisible: return Property::eHostVisible | Property::eHostCoherent;
-        case Residence::hostCached: return Property::eHostVisible | Property::eHostCoherent | Property::eHostCached;
-        default: return Property::eDeviceLocal;
-    }
+    if (residence == Residence::device) return Property::eDeviceLocal;
+    const vk::MemoryPropertyFlags visible = Property::eHostVisible | Property::eHostCoherent;
+    const auto better = visible | (residence == Residence::hostCached ? Property::eHostCached : Property::eDeviceLocal);
+    return context.hasMemory(requirements, better) ? better : visible;
 }
 
 }  // namespace
@@ -27,10 +28,14 @@ Buffer makeBuffer(const Context& context, const std::string& name, uint64_t byte
     if ((usage & vk::BufferUsageFlagBits::eStorageBuffer) && bytes > context.limits().maxStorageBufferRange)
         throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} bytes (the device's largest storage buffer), got {}",
                                                   name, context.limits().maxStorageBufferRange, bytes));
+    if (bytes > context.maxBufferBytes())
+        throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} bytes (the device's largest buffer), got {}", name,
+                                                  context.maxBufferBytes(), bytes));
     Buffer buffer;
     buffer.bytes = bytes;
     buffer.handle = vk::raii::Buffer(context.device(), {.size = bytes, .usage = usage});
-    buffer.memory = context.allocate(buffer.handle.getMemoryRequirements(), propertiesOf(residence));
+    const auto requirements = buffer.handle.getMemoryRequirements();
+    buffer.memory = context.allocate(requirements, propertiesOf(context, requirements, residence));
     buffer.handle.bindMemory(*buffer.memory, 0);
     context.name(*buffer.handle, name);
     return buffer;
@@ -93,6 +98,11 @@ Buffer uploadBuffer(const Context& context, const std::string& name, std::span<c
     staging.write(data);
     context.runOnce([&](const vk::raii::CommandBuffer& commands) {
         commands.copyBuffer(staging.handle(), *target.handle, vk::BufferCopy{.size = data.size()});
+        const vk::MemoryBarrier2 visible{.srcStageMask = vk::PipelineStageFlagBits2::eTransfer,
+                                         .srcAccessMask = vk::AccessFlagBits2::eTransferWrite,
+                                         .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                         .dstAccessMask = vk::AccessFlagBits2::eMemoryRead};
+        commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &visible});
     });
     return target;
 }

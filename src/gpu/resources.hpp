@@ -26,10 +26,10 @@ struct Image {
     uint64_t bytes = 0;
 };
 
-/// Memory that is best for the device, that the host writes, or that the host reads.
+/// Memory that is best for the device, that the host writes (and the device reads), or that the host reads.
 enum class Residence { device, hostVisible, hostCached };
 
-/// \throws Error(limit) for a storage buffer beyond the device's limit; an empty request gives the smallest buffer, since
+/// \throws Error(limit) for a buffer beyond the device's limits; an empty request gives the smallest buffer, since
 /// Vulkan has no empty ones
 Buffer makeBuffer(const Context& context, const std::string& name, uint64_t bytes, vk::BufferUsageFlags usage,
                   Residence residence = Residence::device);

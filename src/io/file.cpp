@@ -72,7 +72,11 @@ private:
             // Not built on the target's name, which may already be as long as the file system allows.
             path_ = target_.parent_path() / fmt::format(".luciole-{}-{}.tmp", ::getpid(), counter++);
             const int fd = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (fd >= 0) return Descriptor(fd);
+            if (fd >= 0) {
+                struct stat old {};  // a private file stays private
+                if (::stat(target_.c_str(), &old) == 0) ::fchmod(fd, old.st_mode & 0777);
+                return Descriptor(fd);
+            }
             if (errno == EEXIST || errno == EINTR) continue;
             const int code = errno;
             path_.clear();
@@ -85,17 +89,21 @@ private:
     Descriptor descriptor_;
 };
 
-/// Where the bytes have to go: links are followed, so that a link stays one; a device or folder is refused, as
-/// renaming over it would replace it.
+/// Where the bytes have to go: links are followed, so that a link stays one, even one to nothing yet; a device or
+/// folder is refused, as renaming over it would replace it.
 fs::path resolveTarget(const fs::path& file) {
     std::error_code code;
     const fs::file_status status = fs::status(file, code);
     if (status.type() == fs::file_type::regular) return fs::canonical(file, code);
     if (status.type() == fs::file_type::directory) fail(file, "write", EISDIR);
+    if (status.type() == fs::file_type::none) fail(file, "write", code.value());  // a long name, a loop of links
     if (fs::exists(status))
         throw Error(ErrorKind::io, fmt::format("{}: can't write: not a regular file", file.string()));
     if (file.filename().empty()) fail(file, "write", file.empty() ? ENOENT : EISDIR);
-    return file.has_parent_path() ? file : "." / file;
+    fs::path target = file;  // nothing is there; `status` has refused a loop of links
+    while (fs::is_symlink(fs::symlink_status(target, code)))
+        target = target.parent_path() / fs::read_symlink(target, code);
+    return target.has_parent_path() ? target : "." / target;
 }
 
 /// Makes the new name survive a power cut. A folder that can't be synced (some network file systems) is not an error:

@@ -10,6 +10,8 @@
 #include <optional>
 #include <type_traits>
 
+#include "scene/json.hpp"
+
 namespace luciole {
 namespace {
 
@@ -42,7 +44,7 @@ Setting onOff(std::string_view name, std::string_view help) {
 }
 
 std::optional<float> parseNumber(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     float value = 0;
     const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (code != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -119,18 +121,18 @@ void setSetting(RenderSettings& settings, std::string_view name, std::string_vie
 }
 
 void applySettingsText(RenderSettings& settings, std::string_view json, const std::string& nameForErrors) {
-    const auto object = nlohmann::json::parse(json, nullptr, false);
-    if (!object.is_object())
-        throw Error(ErrorKind::usage, fmt::format("{}: expected a JSON object of settings", nameForErrors));
     RenderSettings changed = settings;
-    for (const auto& [key, value] : object.items()) {
-        const Setting* setting = findSetting(key);
-        if (!setting) throw Error(ErrorKind::usage, fmt::format("{}: /{}: unknown setting", nameForErrors, key));
-        const std::string text = textOf(*setting, value);
-        if (!accepts(*setting, text))
-            throw Error(ErrorKind::usage, fmt::format("{}: /{}: expected {}, got {}", nameForErrors, key,
-                                                      expectation(*setting), value.dump()));
-        setting->set(changed, text);
+    try {
+        const nlohmann::json document = parseJson(json, nameForErrors, {.maxJsonDepth = 8, .maxElements = 1000});
+        for (const auto& [key, node] : JsonNode(document, nameForErrors).members()) {
+            const Setting* setting = findSetting(key);
+            if (!setting) node.failWith("unknown setting");
+            const std::string text = textOf(*setting, node.raw());
+            if (!accepts(*setting, text)) node.fail(expectation(*setting));
+            setting->set(changed, text);
+        }
+    } catch (const Error& error) {
+        throw Error(ErrorKind::usage, error.what());  // the JSON reader speaks of scenes and limits
     }
     settings = changed;
 }

@@ -1,7 +1,10 @@
 #include "render/gpu_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <luciole/error.hpp>
 #include <numeric>
 #include <tuple>
 
@@ -53,11 +56,11 @@ vk::raii::Sampler makeSampler(const gpu::Context& context, const Sampler& sample
              .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f}};
 }
 
-gpu::Image uploadTexels(const gpu::Context& context, const Texels& texels, bool srgb) {
+gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, const Texels& texels, bool srgb) {
     const auto chain = mipChain(texels, srgb);
     std::vector<std::span<const std::byte>> levels;
     for (const Texels& level : chain) levels.push_back(std::as_bytes(std::span(level.rgba)));
-    return gpu::uploadImage(context, texels.name, srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
+    return gpu::uploadImage(context, name, srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
                             {texels.width, texels.height}, levels);
 }
 
@@ -92,6 +95,9 @@ void GpuScene::uploadMeshes(const Scene& scene) {
     vertices.reserve(std::transform_reduce(scene.meshes.begin(), scene.meshes.end(), size_t(0), std::plus{},
                                            [](const Mesh& mesh) { return mesh.vertices.size(); }));
     for (const Mesh& mesh : scene.meshes) {
+        if (vertices.size() + mesh.vertices.size() > INT32_MAX || indices.size() + mesh.indices.size() > UINT32_MAX)
+            throw Error(ErrorKind::limit, fmt::format("meshes: expected at most {} vertices and {} indices in all, got more at \"{}\"",
+                                                      INT32_MAX, UINT32_MAX, mesh.name));
         meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -101,8 +107,9 @@ void GpuScene::uploadMeshes(const Scene& scene) {
 }
 
 void GpuScene::uploadObjects(const Scene& scene) {
-    std::vector<uint32_t> order(scene.objects.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < scene.objects.size(); ++i)
+        if (isDrawn(scene.objects[i])) order.push_back(i);
     const auto batchOf = [&](uint32_t i) {
         const Object& object = scene.objects[i];
         return std::tuple(object.material, object.mesh, mirrored(object));
@@ -150,11 +157,19 @@ void GpuScene::uploadTextures(const Scene& scene) {
             if (role.use->texture == kNone) continue;
             const uint32_t texels = scene.textures[role.use->texture].texels;
             gpu::Image& image = images_[texels][role.srgb];
-            if (!*image.view) image = uploadTexels(context_, scene.texels[texels], role.srgb);
+            if (!*image.view) image = uploadTexels(context_, fmt::format("texels {} \"{}\"", texels, scene.texels[texels].name), scene.texels[texels], role.srgb);
         }
-    white_ = uploadTexels(context_, {.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}}, false);
-    for (const Texture& texture : scene.textures) samplers_.push_back(makeSampler(context_, texture.sampler));
-    samplers_.push_back(makeSampler(context_, {}));
+    white_ = uploadTexels(context_, "white", {.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}}, false);
+    samplerOf(Sampler{});
+    for (const Texture& texture : scene.textures) samplerOf(texture.sampler);
+}
+
+vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
+    // A device may allow no more than 4,000 samplers; of different ones there are 108.
+    for (const auto& [settings, sampler] : samplers_)
+        if (settings == wanted) return *sampler;
+    samplers_.emplace_back(wanted, makeSampler(context_, wanted));
+    return *samplers_.back().second;
 }
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
@@ -162,14 +177,11 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 1},
                                             {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects},
                                             {vk::DescriptorType::eUniformBuffer, 2}};
-    pool_ = vk::raii::DescriptorPool(context_.device(), {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                         .maxSets = count + 1,
+    pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 1,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
                                                          .pPoolSizes = sizes});
     if (count == 0) return;
-    const std::vector<vk::DescriptorSetLayout> layouts(count, pipelines.materialSetLayout());
-    materialSets_ = vk::raii::DescriptorSets(
-        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = count, .pSetLayouts = layouts.data()});
+    const auto sets = gpu::allocateSets(context_, pool_, pipelines.materialSetLayout(), count);
     for (uint32_t i = 0; i < count; ++i) {
         const Material& material = scene.materials[i];
         uint32_t present = 0;
@@ -179,19 +191,19 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
             const uint32_t texture = roles[slot].use->texture;
             const bool has = texture != kNone;
             present |= uint32_t(has) << slot;
-            infos[slot] = {.sampler = *samplers_[has ? texture : samplers_.size() - 1],
+            infos[slot] = {.sampler = samplerOf(has ? scene.textures[texture].sampler : Sampler{}),
                            .imageView = has ? *images_[scene.textures[texture].texels][roles[slot].srgb].view : *white_.view,
                            .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
         }
         context_.device().updateDescriptorSets(
-            vk::WriteDescriptorSet{.dstSet = *materialSets_[i],
+            vk::WriteDescriptorSet{.dstSet = sets[i],
                                    .dstBinding = 0,
                                    .descriptorCount = kTextureSlots,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = infos.data()},
             nullptr);
         drawMaterials_.push_back({uint32_t(material.surface), present, material.alphaMode == AlphaMode::mask,
-                                  material.doubleSided, *materialSets_[i]});
+                                  material.doubleSided, sets[i]});
     }
 }
 
@@ -204,9 +216,7 @@ void GpuScene::uploadFunctions(const Scene& scene) {
 }
 
 void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
-    const vk::DescriptorSetLayout layout = pipelines.frameSetLayout();
-    frameSet_ = std::move(vk::raii::DescriptorSets(
-        context_.device(), {.descriptorPool = *pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+    frameSet_ = gpu::allocateSets(context_, pool_, pipelines.frameSetLayout(), 1).front();
     struct Binding {
         uint32_t slot;
         vk::Buffer buffer;
@@ -224,18 +234,18 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
                                 {kFrameUniformLights, lightTable_.handle(), uniform, uniformLightBytes}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
-        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *frameSet_,
+        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = frameSet_,
                                                                       .dstBinding = binding.slot,
                                                                       .descriptorCount = 1,
                                                                       .descriptorType = binding.type,
                                                                       .pBufferInfo = &info},
                                                nullptr);
     }
-    const vk::DescriptorImageInfo image{.sampler = *samplers_.back(),
+    const vk::DescriptorImageInfo image{.sampler = samplerOf({}),
                                         .imageView = *functions_.view,
                                         .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
     context_.device().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = *frameSet_,
+        vk::WriteDescriptorSet{.dstSet = frameSet_,
                                .dstBinding = kFrameFunctions,
                                .descriptorCount = 1,
                                .descriptorType = vk::DescriptorType::eCombinedImageSampler,
@@ -266,13 +276,13 @@ void GpuScene::draw(frame::PassContext& pass, GBufferLayout layout, bool depthOn
         const DrawMaterial& material = drawMaterials_[batch.material];
         if (bound != batch.material) {
             bound = batch.material;
-            const char* fragment = !depthOnly        ? "render/geometry/surface.frag"
-                                   : material.masked ? "render/geometry/depth_masked.frag"
-                                                     : "";
-            pass.bind({.vertex = "render/geometry/surface.vert",
-                       .fragment = fragment,
-                       .meshVertices = true,
-                       .constants = {uint32_t(layout), ~0u, ~0u, material.surfaceShader, material.masked, material.textures}});
+            if (depthOnly && !material.masked)
+                pass.bind({.vertex = "render/geometry/surface.vert", .meshVertices = true});
+            else
+                pass.bind({.vertex = "render/geometry/surface.vert",
+                           .fragment = depthOnly ? "render/geometry/depth_masked.frag" : "render/geometry/surface.frag",
+                           .meshVertices = true,
+                           .constants = {uint32_t(layout), ~0u, ~0u, material.surfaceShader, material.masked, material.textures}});
             pass.bindSet(kMaterialSet, material.set);
             pass.commands.setCullMode(material.doubleSided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         }

@@ -28,7 +28,7 @@ public:
     /// Writes what depends on the view: its constants and the lights in view space.
     void setView(const View& view, const RenderSettings& settings);
 
-    vk::DescriptorSet frameSet() const { return *frameSet_; }
+    vk::DescriptorSet frameSet() const { return frameSet_; }
 
     /// What the lighting shaders can leave out for this scene (types.shared.h, kConstant*).
     uint32_t equations() const { return equations_; }
@@ -53,6 +53,7 @@ private:
     void uploadObjects(const Scene& scene);
     void uploadMaterials(const Scene& scene);
     void uploadTextures(const Scene& scene);
+    vk::Sampler samplerOf(const Sampler& wanted);
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
     void uploadFunctions(const Scene& scene);
     void createFrameSet(const gpu::Pipelines& pipelines);
@@ -68,10 +69,9 @@ private:
     /// Texels by [image][sRGB]: one image may serve as colour and as data.
     std::vector<std::array<gpu::Image, 2>> images_;
     gpu::Image white_;
-    std::vector<vk::raii::Sampler> samplers_;  // one per texture, then one plain
+    std::vector<std::pair<Sampler, vk::raii::Sampler>> samplers_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    std::vector<vk::raii::DescriptorSet> materialSets_;
-    vk::raii::DescriptorSet frameSet_ = nullptr;
+    vk::DescriptorSet frameSet_;
     std::vector<Light> lights_;
     Ambience ambience_;
     float exposureEv_ = 0;

@@ -44,7 +44,7 @@ void addDepthPrepass(frame::FrameGraph& graph, const GpuScene& scene, const Fram
     graph.addPass("geometry.depth")
         .clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
         .record([&scene, layout = key.gbuffer](frame::PassContext& pass) {
-            pass.depth(vk::CompareOp::eGreater, true);
+            pass.depth(vk::CompareOp::eGreaterOrEqual, true);
             scene.draw(pass, layout, true);
         });
 }
@@ -55,11 +55,12 @@ void addGeometry(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey
     for (const frame::ImageId target : gbuffer.targets)
         pass.clear(target, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     if (key.depthPrepass)
-        pass.write(gbuffer.depth, Access::depthWrite);
+        pass.read(gbuffer.depth, Access::depthTest);
     else
         pass.clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0});
     pass.record([&scene, layout = key.gbuffer, after = key.depthPrepass](frame::PassContext& context) {
-        context.depth(after ? vk::CompareOp::eEqual : vk::CompareOp::eGreater, !after);
+        // Of surfaces that coincide the last one drawn is seen, with the set-up pass and without.
+        context.depth(after ? vk::CompareOp::eEqual : vk::CompareOp::eGreaterOrEqual, !after);
         scene.draw(context, layout, false);
     });
 }
@@ -100,17 +101,22 @@ struct Renderer::Impl {
     void setScene(const Scene& scene) {
         frame.reset();
         gpuScene.reset();  // before the new one is made: both may not fit
-        gpuScene = std::make_unique<render::GpuScene>(context, pipelines, scene);
+        try {
+            gpuScene = std::make_unique<render::GpuScene>(context, pipelines, scene);
+        } catch (...) {
+            gpuScene = std::make_unique<render::GpuScene>(context, pipelines, Scene{});
+            throw;
+        }
     }
 
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
         checkRequest(view, aovs);
         render::checkAgainstDevice(context, view.extent);
-        context.resetPeak();
         const render::FrameKey key{view.extent,          settings.lighting,     settings.gbuffer,
                                    settings.lightBuffer, settings.depthPrepass, !aovs.empty()};
         if (!frame || frame->key != key) {
             frame.reset();
+            context.resetPeak();
             frame = std::make_unique<render::BuiltFrame>(render::buildFrame(context, pipelines, *gpuScene, key));
         }
         gpuScene->setView(view, settings);

@@ -7,6 +7,14 @@ namespace luciole::render {
 
 using namespace shared;
 
+// As the shaders lay them out (scalar block layout).
+static_assert(sizeof(ViewConstants) == 320);
+static_assert(sizeof(ObjectConstants) == 112);
+static_assert(sizeof(TextureSlot) == 28);
+static_assert(sizeof(SurfaceConstants) == 84 + kTextureSlots * sizeof(TextureSlot));
+static_assert(sizeof(MaterialConstants) == 36);
+static_assert(sizeof(LightConstants) == 76 && kUniformLights * sizeof(LightConstants) <= 65536);
+
 dmat4 clipFromView(const Camera& camera, double aspect) {
     dmat4 m(0);
     if (camera.orthographic) {

@@ -1,5 +1,5 @@
 #include "io/file.hpp"
-#include "scene/builtin.hpp"
+#include "scene/builtin/builtin.hpp"
 
 #include <luciole/scene_io.hpp>
 

@@ -31,6 +31,11 @@ Bounds boundsOf(const Scene& scene) {
     return empty ? Bounds{} : Bounds{low, high};
 }
 
+bool isDrawn(const Object& object) {
+    const double volume = determinant(dmat3(object.worldFromObject));
+    return volume != 0 && std::isfinite(volume);
+}
+
 uint64_t triangleCount(const Scene& scene) {
     uint64_t count = 0;
     for (const Object& object : scene.objects) count += scene.meshes[object.mesh].indices.size() / 3;

@@ -143,8 +143,7 @@ SceneHandle Visibility::Impl::meshScene(const Mesh& mesh) const {
 void Visibility::Impl::addInstance(uint32_t object) {
     const Object& source = scene.objects[object];
     if (scene.meshes[source.mesh].indices.empty()) return;
-    const double volume = determinant(dmat3(worldFromObject[object]));
-    if (volume == 0 || !std::isfinite(volume)) return;
+    if (!isDrawn(source)) return;
     const GeometryHandle instance(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE), &rtcReleaseGeometry);
     rtcSetGeometryInstancedScene(instance.get(), meshes[source.mesh].get());
     rtcSetGeometryTransform(instance.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &source.worldFromObject[0][0]);

@@ -35,6 +35,7 @@ std::vector<std::string> renderTo(const std::string& file, const std::vector<std
 TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, and write nothing") {
     const TemporaryFolder folder;
     const std::string png = folder / "a.png", exr = folder / "a.exr";
+    std::filesystem::create_symlink(".", folder / "link");
     const struct {
         std::vector<std::string> more;
         std::string_view message;
@@ -67,6 +68,7 @@ TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, a
         {{"--aov", "smell", "-o", exr}, "--aov: expected some of depth"},
         {{"--dump-graph", folder / "a.dot"}, "--dump-graph"},
         {{"-o", png}, "named twice"},
+        {{"-o", folder / "link/a.png"}, "named twice"},
         {{"-o", folder / "a.jpg"}, "a.jpg: expected a name that ends in .png or .exr"},
         {{"--shine"}, "--shine"},
         {{"another"}, "another"},
@@ -77,7 +79,9 @@ TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, a
         const Run run = failing(ErrorKind::usage, renderTo(png, row.more));
         CHECK(has(run.err, row.message));
     }
-    CHECK(folder.count() == 0);
+    // The graph may not take the picture's place either.
+    CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--dump-graph", png}).err, "twice"));
+    CHECK(folder.count() == 1);  // the link
 }
 
 TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
@@ -103,6 +107,7 @@ TEST_CASE("cli: a faulty settings file ends with 2, a missing one with 4") {
     CHECK(has(failing(ErrorKind::io, renderTo(folder / "a.png", {"--settings", folder / "none.json"})).err,
               "No such file"));
     CHECK(has(failing(ErrorKind::io, renderTo(folder / "a.png", {"--settings", folder.path()})).err, "Is a directory"));
+    failing(ErrorKind::limit, renderTo(folder / "a.png", {"--settings", "/dev/zero"}));
 }
 
 TEST_CASE("cli: a faulty scene or rig ends with 3 and names the file") {
@@ -137,6 +142,9 @@ TEST_CASE("cli: an output that can't be written ends with 4 before the scene is 
     CHECK(has(renderFails(folder / "none/a.png"), "none/a.png: can't write: No such file"));
     CHECK(has(renderFails(folder / "file/a.png"), "file/a.png: can't write: Not a directory"));
     CHECK(has(renderFails(folder / "folder.png"), "folder.png: can't write: Is a directory"));
+    std::filesystem::create_symlink("/dev/null", folder / "null.png");
+    CHECK(has(renderFails(folder / "null.png"), "null.png: can't write: not a regular file"));
+    CHECK(has(renderFails(folder / (std::string(300, 'x') + ".png")), "can't write: File name too long"));
     CHECK(
         has(failing(ErrorKind::io, {"scene", folder / "no scene.glb", "-o", folder / "none/a.glb"}).err, "none/a.glb"));
 }
@@ -146,6 +154,31 @@ TEST_CASE("cli: a result that can't be written to standard output ends with 4") 
     const Run run = process.wait();
     CHECK(run.exitCode == int(ErrorKind::io));
     CHECK(has(run.err, "standard output"));
+}
+
+TEST_CASE("cli: a standard error that is closed or full changes neither result nor exit code") {
+    const TemporaryFolder folder;
+    for (const std::string stream : {"2>&-", "2>/dev/full"}) {
+        CAPTURE(stream);
+        const auto exitCodeOf = [&](const std::string& arguments) {
+            const std::string script = "exec \"$0\" " + arguments + " " + stream;
+            return Process({"/bin/sh", "-c", script, LUCIOLE_BINARY, folder / "a.png"}).wait().exitCode;
+        };
+        CHECK(exitCodeOf("info none.glb") == int(ErrorKind::io));
+        CHECK(exitCodeOf("paint") == int(ErrorKind::usage));
+        CHECK(exitCodeOf("render builtin:materials -o \"$1\" --size 2x2 --lighting reference -v --stats") == 0);
+        CHECK(textOf(folder / "a.png").starts_with("\x89PNG"));
+    }
+}
+
+TEST_CASE("cli: a name with a terminal's commands in it is shown without them") {
+    const TemporaryFolder folder;
+    const std::string rig = folder / "rig.json";
+    writeText(rig, R"({"cameras": [{"name": "a\u001b[31m\nb", "eye": [0, 0, 1], "target": [0, 0, 0]}]})");
+    const Run run = runLuciole({"info", "builtin:materials", "--rig", rig});
+    CHECK(run.exitCode == 0);
+    CHECK(has(run.out, "a [31m b (perspective"));
+    CHECK(has(failing(ErrorKind::io, {"info", "a\033[31m\nb.glb"}).err, "a [31m b.glb: can't read"));
 }
 
 TEST_CASE("cli: without a driver, rendering ends with 5, and all that needs none works") {

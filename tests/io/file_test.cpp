@@ -130,6 +130,27 @@ TEST_CASE("file: writing through a symbolic link changes the file it points to")
     CHECK(textOf(elsewhere / "real") == "new");
 }
 
+TEST_CASE("file: writing through a symbolic link to nothing makes the file that it points to") {
+    const test::TemporaryFolder folder;
+    fs::create_symlink("real", folder / "link");
+    fs::create_symlink("link", folder / "link to link");
+    writeFileAtomically(folder / "link to link", bytesOf("new"));
+    CHECK(fs::is_symlink(folder / "link"));
+    CHECK(fs::is_symlink(folder / "link to link"));
+    CHECK(textOf(folder / "real") == "new");
+    fs::create_symlink("loop", folder / "loop");
+    CHECK(has(messageOf(ErrorKind::io, [&] { writeFileAtomically(folder / "loop", {}); }), "symbolic links"));
+}
+
+TEST_CASE("file: a file keeps its permissions when it is written again") {
+    const test::TemporaryFolder folder;
+    writeFileAtomically(folder / "private", bytesOf("old"));
+    fs::permissions(folder / "private", fs::perms::owner_read | fs::perms::owner_write);
+    writeFileAtomically(folder / "private", bytesOf("new"));
+    CHECK(fs::status(folder / "private").permissions() == (fs::perms::owner_read | fs::perms::owner_write));
+    CHECK(textOf(folder / "private") == "new");
+}
+
 TEST_CASE("file: reading says why it can't, and keeps to its limit") {
     const test::TemporaryFolder folder;
     writeFileAtomically(folder / "five", bytesOf("12345"));

@@ -74,7 +74,7 @@ TEST_CASE("settings: the choices stand for the values of their enum") {
 
 TEST_CASE("settings: a value outside a row's range is refused by name, and changes nothing") {
     for (const Setting& setting : settingsTable()) {
-        for (const char* value : {"", "nan", "inf", "1e99", "65", "-65", "1x", "AGX", "yes", " on"}) {
+        for (const char* value : {"", "nan", "inf", "1e99", "65", "-65", "1x", "+-1", "AGX", "yes", " on"}) {
             if (setting.type == "name" && *value) continue;
             RenderSettings settings;
             const std::string message = usageError([&] { setSetting(settings, setting.name, value); });
@@ -113,6 +113,14 @@ TEST_CASE("settings: a faulty file is refused whole, with its name and the key")
     CHECK(has(messageFor(R"({"exposure": "1"})"), "a.json: /exposure: expected a number from -64 to 64, got \"1\""));
     CHECK(has(messageFor(R"({"measure": "on"})"), "a.json: /measure: expected on or off"));
     CHECK(has(messageFor(R"({"lighting": null})"), "a.json: /lighting: expected a name"));
-    for (const char* json : {"", "[]", "{", "1", "{\"exposure\": NaN}"})
-        CHECK(has(messageFor(json), "a.json: expected a JSON object"));
+    for (const char* json : {"", "{", "{\"exposure\": NaN}"})
+        CHECK(has(messageFor(json), "a.json: parse error at line 1, column "));
+    for (const char* json : {"[]", "1"}) CHECK(has(messageFor(json), "a.json: /: expected an object, got "));
+    CHECK(has(messageFor(R"({"exposure": 1, "exposure": 2})"), "given twice"));
+}
+
+TEST_CASE("settings: a file nested deep enough to exhaust the stack is refused") {
+    RenderSettings settings;
+    const std::string deep = R"({"exposure": )" + std::string(1 << 20, '[') + std::string(1 << 20, ']') + "}";
+    CHECK(has(usageError([&] { applySettingsText(settings, deep, "a.json"); }), "nesting of at most"));
 }

@@ -1,4 +1,4 @@
-#include "scene/builtin.hpp"
+#include "scene/builtin/builtin.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "gltf_document.hpp"
-#include "scene/gltf_shading.hpp"
+#include "scene/gltf/shading.hpp"
 #include "support.hpp"
 
 using namespace luciole;

@@ -12,7 +12,7 @@
 #include <luciole/scene_io.hpp>
 
 #include "rig_scene.hpp"
-#include "scene/rig_values.hpp"
+#include "scene/rig/values.hpp"
 #include "support.hpp"
 
 using namespace luciole;

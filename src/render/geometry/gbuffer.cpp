@@ -1,7 +1,5 @@
 #include "render/geometry/gbuffer.hpp"
 
-#include "gpu/bindings.shared.h"
-
 namespace luciole::render {
 
 using frame::Access;
@@ -26,8 +24,8 @@ GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent
 
 void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer) {
     for (uint32_t i = 0; i < gbuffer.targets.size(); ++i)
-        pass.read(gbuffer.targets[i], Access::fragmentSampled, shared::kPassSampled + i);
-    pass.read(gbuffer.depth, Access::fragmentSampled, shared::kPassSampled + 4);
+        pass.read(gbuffer.targets[i], Access::fragmentSampled, i);
+    pass.read(gbuffer.depth, Access::fragmentSampled, 4);
     pass.read(gbuffer.depth, Access::depthTest);
 }
 

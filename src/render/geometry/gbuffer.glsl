@@ -17,7 +17,8 @@ struct Texels {
     vec4 a, b, c, d;
 };
 
-float packIndex(uint index) { return float(index) / 65535.0; }
+// A quarter of a step more, so that a driver that truncates keeps the index, too.
+float packIndex(uint index) { return (float(index) + 0.25) / 65535.0; }
 uint unpackIndex(float stored) { return uint(stored * 65535.0 + 0.5); }
 
 // Octahedral map of the sphere to [0, 1]^2 (Meyer et al. 2010, "On Floating-Point Normal Vectors").
@@ -34,7 +35,8 @@ vec3 unpackNormal(vec2 stored) {
 }
 
 // Calver 2003, "Storing Position": PackPositionForGBuffer. The rasterizer has divided by w and biased x and y already.
-vec3 packPosition(vec4 fragCoord) { return vec3(fragCoord.xy / view.extent, fragCoord.z); }
+// Not below one step of 16 bits: 0 would be infinitely far.
+vec3 packPosition(vec4 fragCoord) { return vec3(fragCoord.xy / view.extent, max(fragCoord.z, 1.0 / 65535.0)); }
 // UnPackPositionFromGBuffer.
 vec3 unpackPosition(vec3 stored) {
     const vec4 p = view.viewFromGBuffer * vec4(stored, 1);
@@ -47,7 +49,7 @@ Texels packSurface(Surface s, vec4 fragCoord) {
     if (kLayout == kCompact)
         return Texels(vec4(sqrt(s.Cs0), s.specularBlend), vec4(sqrt(s.Cs1), s.occlusion),
                       vec4(normal, s.roughness, packIndex(s.objectId)), vec4(packIndex(s.material), 0, 0, 0));
-    const vec3 position = kLayout == kCalver ? packPosition(fragCoord) : s.P;
+    const vec3 position = kLayout == kCalver ? packPosition(fragCoord) : clamp(s.P, -65504.0, 65504.0);
     return Texels(vec4(position, s.specularBlend), vec4(normal, s.roughness, s.occlusion), vec4(s.Cs0, packIndex(s.material)),
                   vec4(s.Cs1, packIndex(s.objectId)));
 }

@@ -44,7 +44,7 @@ float checker(vec3 p, vec3 width) {
     const vec3 w = max(width, vec3(1e-4));
     const vec3 low = abs(fract((q - 0.5 * w) * 0.5) - 0.5);
     const vec3 high = abs(fract((q + 0.5 * w) * 0.5) - 0.5);
-    const vec3 i = 2.0 * (low - high) / w;
+    const vec3 i = clamp(2.0 * (low - high) / w, -1.0, 1.0);  // the difference loses digits far from the origin
     return 0.5 - 0.5 * i.x * i.y * i.z;
 }
 #endif

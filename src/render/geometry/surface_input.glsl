@@ -25,16 +25,20 @@ bool hasTexture(uint slot) { return (kTextures & (1u << slot)) != 0u; }
 // only help with derivatives, Mesa's software driver (22.3) reads zeros from buffers.
 vec4 sampleTexture(sampler2D image, SurfaceConstants surface, uint slotIndex) {
     const TextureSlot slot = surface.slots[slotIndex];
+    const vec4 dx = dFdx(uv);
+    const vec4 dy = dFdy(uv);
     const vec2 p = slot.uvSet == 0u ? uv.xy : uv.zw;
-    const vec2 px = slot.uvSet == 0u ? dFdx(uv.xy) : dFdx(uv.zw);
-    const vec2 py = slot.uvSet == 0u ? dFdy(uv.xy) : dFdy(uv.zw);
-    return textureGrad(image, vec2(dot(slot.uRow, vec3(p, 1)), dot(slot.vRow, vec3(p, 1))),
-                       vec2(dot(slot.uRow.xy, px), dot(slot.vRow.xy, px)), vec2(dot(slot.uRow.xy, py), dot(slot.vRow.xy, py)));
+    const vec2 px = slot.uvSet == 0u ? dx.xy : dx.zw;
+    const vec2 py = slot.uvSet == 0u ? dy.xy : dy.zw;
+    // precise: the depth set-up pass has to find the same alpha.
+    precise const vec2 at = vec2(dot(slot.uRow, vec3(p, 1)), dot(slot.vRow, vec3(p, 1)));
+    return textureGrad(image, at, vec2(dot(slot.uRow.xy, px), dot(slot.vRow.xy, px)),
+                       vec2(dot(slot.uRow.xy, py), dot(slot.vRow.xy, py)));
 }
 
 // Base colour with alpha: factor * texture * vertex colour.
 vec4 baseColor(SurfaceConstants surface) {
-    vec4 base = surface.baseColor * color;
+    precise vec4 base = surface.baseColor * color;
     if (hasTexture(kTextureBaseColor)) base *= sampleTexture(textureBaseColor, surface, kTextureBaseColor);
     return base;
 }

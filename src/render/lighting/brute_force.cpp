@@ -9,7 +9,7 @@ using frame::Access;
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance) {
     auto pass = graph.addPass("lighting.brute-force");
     readGBuffer(pass, in.gbuffer);
-    pass.write(radiance, Access::colorBlend).record([constants = in.constants](frame::PassContext& context) {
+    pass.update(radiance, Access::colorBlend).record([constants = in.constants](frame::PassContext& context) {
         context.bind({.vertex = "render/shaders/full_screen.vert",
                       .fragment = "render/lighting/brute_force.frag",
                       .additive = true,

@@ -11,7 +11,7 @@ using frame::Access;
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance) {
     auto pass = graph.addPass("lighting.fullscreen");
     readGBuffer(pass, in.gbuffer);
-    pass.write(radiance, Access::colorBlend)
+    pass.update(radiance, Access::colorBlend)
         .record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert",
                           .fragment = "render/lighting/full_screen.frag",

@@ -4,7 +4,6 @@
 #include <glm/gtc/packing.hpp>
 
 #include "frame/pass_context.hpp"
-#include "gpu/bindings.shared.h"
 
 namespace luciole::render {
 
@@ -71,7 +70,7 @@ Image radianceImage(const frame::Executor& executor, frame::BufferId buffer, uve
 frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent) {
     const frame::ImageId display = graph.createImage("display", {kFloat, extent});
     graph.addPass("post.tone-map")
-        .read(radiance, Access::fragmentSampled, shared::kPassSampled)
+        .read(radiance, Access::fragmentSampled, 0)
         .write(display, Access::colorWrite)
         .record([](frame::PassContext& pass) {
             pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/post/tone_map.frag"});

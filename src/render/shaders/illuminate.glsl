@@ -90,9 +90,15 @@ ShadingPoint shadingPoint(Surface s) {
     return p;
 }
 
+// Zero, not NaN, for a light that shines straight at the eye.
+vec3 halfVector(vec3 V, vec3 L) {
+    const vec3 sum = V + L;
+    return sum * inversesqrt(max(dot(sum, sum), 1e-12));
+}
+
 // Calver 2003, "Light Model": Illuminate. Kd and Ks are folded into Cs0 and Cs1. `keep`: diffuse and specular, 0 or 1.
 vec3 illuminateShaped(ShadingPoint p, vec3 V, vec3 L, vec3 E, vec2 keep) {
-    const vec3 H = normalize(V + L);
+    const vec3 H = halfVector(V, L);
     const vec3 Cl = E / kPi;
     const vec2 diffuse = lookUp(p.m.diffuseFunction, bias(dot(p.s.N, L)));
     const float specular = lookUp(p.m.specularFunction, bias(dot(p.s.N, H))).x;
@@ -105,7 +111,7 @@ vec3 illuminateShaped(ShadingPoint p, vec3 V, vec3 L, vec3 E, vec2 keep) {
 vec3 illuminateMetallicRoughness(ShadingPoint p, vec3 L, vec3 E, vec2 keep) {
     const float NoL = dot(p.s.N, L);
     if (NoL <= 0.0) return vec3(0);
-    const vec3 H = normalize(p.V + L);
+    const vec3 H = halfVector(p.V, L);
     const float NoH = dot(p.s.N, H);
     const float u = 1.0 - max(dot(p.V, H), 0.0);
     const float u2 = u * u;

@@ -1,7 +1,7 @@
 // Everything that the host writes and shaders read. Scalar block layout, so that both compilers lay it out alike.
 #ifndef LUCIOLE_TYPES_SHARED_H
 #define LUCIOLE_TYPES_SHARED_H
-#include "render/shaders/shared.h"
+#include "shared.h"
 SHARED_BEGIN
 
 const uint kNoIndex = 0xffffffffu;
@@ -115,7 +115,7 @@ const uint kUsesCurves = 8u;         // an attenuation or falloff function
 const uint kUsesLinks = 16u;
 const uint kUsesContributions = 32u; // a diffuse-only, specular-only or infinite-viewer light
 const uint kUsesUniformLights = 64u; // all lights fit into a uniform buffer, the faster way to read them
-const uint kUniformLights = 910u;    // 64 KiB
+const uint kUniformLights = 862u;    // of 76 bytes in 64 KiB
 
 SHARED_END
 #endif
