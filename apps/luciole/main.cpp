@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
     CLI::App app("Luciole renders scenes with many lights.", "luciole");
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_version_flag("--version", "luciole " LUCIOLE_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);  // none is refused below: CLI11 would not name a misspelt one
     app.footer(helpFooter);
     cli::addRenderCommand(app);
     cli::addInfoCommand(app);
@@ -76,11 +76,16 @@ int run(int argc, char** argv) {
     cli::addDevicesCommand(app);
     cli::addSettingsCommand(app);
     cli::addTechniquesCommand(app);
+    const auto refuse = [&](std::string_view what) {
+        const auto commands = app.get_subcommands();
+        const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+        throw Error(ErrorKind::usage, fmt::format("{} (see luciole {}--help)", what, command));
+    };
     try {
         app.parse(argc, argv);
+        if (app.get_subcommands().empty()) refuse("A command is required");
     } catch (const CLI::ParseError& error) {
-        if (error.get_exit_code() != 0)
-            throw Error(ErrorKind::usage, fmt::format("{} (see luciole --help)", error.what()));
+        if (error.get_exit_code() != 0) refuse(error.what());
         app.exit(error);  // --help and --version arrive as exceptions
     }
     if (std::fflush(stdout) != 0)

@@ -89,9 +89,9 @@ TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     const std::string png = folder / "a.png";
     CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "magic"}).err,
               "reference"));
-    failing(ErrorKind::usage, {});
-    failing(ErrorKind::usage, {"paint"});
-    failing(ErrorKind::usage, {"render", "builtin:materials"});
+    CHECK(has(failing(ErrorKind::usage, {}).err, "command"));
+    CHECK(has(failing(ErrorKind::usage, {"paint"}).err, "paint (see luciole --help)"));
+    CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials"}).err, "(see luciole render --help)"));
     failing(ErrorKind::usage, {"render", "-o", png});
     failing(ErrorKind::usage, {"info", "builtin:castle"});
     failing(ErrorKind::usage, {"info", "builtin:hall?lights=-1"});

@@ -54,7 +54,7 @@ TEST_CASE("frame graph: a pass whose result is overwritten before anyone reads i
     const ImageId image = graph.createImage("image", kColor);
     graph.addPass("lost").clear(image, Access::colorWrite, kClear);
     graph.addPass("kept").clear(image, Access::colorWrite, kClear);
-    graph.addPass("blended").write(image, Access::colorBlend);
+    graph.addPass("blended").update(image, Access::colorBlend);
     addOutput(graph, image);
     CHECK(namesOf(graph, graph.compile()) == std::vector<std::string>{"kept", "blended", "copy"});
 }
@@ -127,7 +127,7 @@ TEST_CASE("frame graph: misuse throws and names the pass and the resource") {
     }
     SUBCASE("two layouts in one pass") {
         graph.addPass("write").clear(image, Access::colorWrite, kClear);
-        graph.addPass("both").read(image, Access::fragmentSampled, 0).write(image, Access::colorBlend);
+        graph.addPass("both").read(image, Access::fragmentSampled, 0).update(image, Access::colorBlend);
         addOutput(graph, image);
         CHECK_THROWS_WITH(graph.compile(), doctest::Contains("pass both: image: expected one layout"));
     }
@@ -136,12 +136,48 @@ TEST_CASE("frame graph: misuse throws and names the pass and the resource") {
     }
     SUBCASE("an attachment access to a buffer") {
         const BufferId buffer = graph.createBuffer("buffer", 4);
-        CHECK_THROWS_WITH(graph.addPass("wrong").write(buffer, Access::colorBlend), doctest::Contains("not for buffers"));
+        CHECK_THROWS_WITH(graph.addPass("wrong").update(buffer, Access::colorBlend), doctest::Contains("not for buffers"));
+    }
+    SUBCASE("blending over nothing") {
+        CHECK_THROWS_WITH(graph.addPass("wrong").write(image, Access::colorBlend), doctest::Contains("color blend needs what is there"));
+    }
+    SUBCASE("a texture without its slot, or in a slot that is none") {
+        CHECK_THROWS_WITH(graph.addPass("wrong").read(image, Access::fragmentSampled), doctest::Contains("expected a slot"));
+        CHECK_THROWS_WITH(graph.addPass("wrong").read(image, Access::fragmentSampled, 8), doctest::Contains("expected a slot"));
+    }
+    SUBCASE("attachments of two sizes") {
+        const ImageId small = graph.createImage("small", {kColor.format, {8, 8}});
+        graph.addPass("two").clear(image, Access::colorWrite, kClear).clear(small, Access::colorWrite, kClear);
+        addOutput(graph, image);
+        CHECK_THROWS_WITH(graph.compile(), doctest::Contains("pass two: small: expected the size of image, 64x32, found 8x8"));
+    }
+    SUBCASE("a handle that nothing made") {
+        CHECK_THROWS_WITH(graph.addPass("wrong").read(ImageId{}, Access::transferRead), doctest::Contains("pass wrong"));
     }
     SUBCASE("an output that nobody writes") {
         graph.output(graph.createBuffer("nothing", 4));
         CHECK_THROWS_WITH(graph.compile(), doctest::Contains("nothing: an output that no pass writes"));
     }
+}
+
+TEST_CASE("frame graph: a pass that updates keeps what was written before it, one that writes does not") {
+    for (const bool updates : {true, false}) {
+        FrameGraph graph;
+        const BufferId list = graph.createBuffer("list", 64);
+        graph.addPass("first").write(list, Access::transferWrite);
+        auto second = graph.addPass("second");
+        updates ? second.update(list, Access::transferWrite) : second.write(list, Access::transferWrite);
+        graph.output(list);
+        CHECK(graph.compile().passes.size() == (updates ? 2 : 1));
+    }
+}
+
+TEST_CASE("frame graph: compute may be the first to write") {
+    FrameGraph graph;
+    const BufferId list = graph.createBuffer("list", 64);
+    graph.addPass("build").write(list, Access::computeStorageWrite);
+    graph.output(list);
+    CHECK(graph.compile().passes.size() == 1);
 }
 
 TEST_CASE("frame graph: the drawing names passes, resources with sizes, and notes") {

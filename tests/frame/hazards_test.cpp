@@ -16,7 +16,7 @@ struct Fixture {
     CompiledGraph compiled;
     Fixture() {
         graph.addPass("first").clear(a, Access::colorWrite, kClear);
-        graph.addPass("blend").write(a, Access::colorBlend);
+        graph.addPass("blend").update(a, Access::colorBlend);
         graph.addPass("sample").read(a, Access::fragmentSampled, 0).clear(b, Access::colorWrite, kClear);
         graph.addPass("again").read(b, Access::fragmentSampled, 0).clear(a, Access::colorWrite, kClear);
         const BufferId result = graph.createBuffer("result", 64);
@@ -79,4 +79,45 @@ TEST_CASE("hazards: an image in the wrong layout is found") {
     Fixture fixture;
     fixture.barrier(2).newLayout = vk::ImageLayout::eGeneral;
     CHECK(fixture.finds("layout of a in pass sample"));
+}
+
+TEST_CASE("hazards: a layout transition that does not wait for an earlier reader is found") {
+    FrameGraph graph;
+    const ImageId a = graph.createImage("a", kColor), b = graph.createImage("b", kColor);
+    graph.addPass("write").clear(a, Access::colorWrite, kClear);
+    graph.addPass("sample").read(a, Access::fragmentSampled, 0).clear(b, Access::colorWrite, kClear);
+    for (const ImageId image : {a, b}) {
+        const BufferId result = graph.createBuffer("result", 64);
+        graph.addPass("copy").read(image, Access::transferRead).write(result, Access::transferWrite);
+        graph.output(result);
+    }
+    CompiledGraph compiled = graph.compile();
+    compiled.passes[2].barriers.at(0).srcStages = vk::PipelineStageFlagBits2::eColorAttachmentOutput;  // the writer only
+    const auto hazards = findHazards(graph, compiled);
+    REQUIRE(!hazards.empty());
+    CHECK(hazards.front() == "the layout transition of a before pass copy does not wait for pass sample");
+}
+
+TEST_CASE("hazards: a barrier that discards what is needed is found") {
+    Fixture fixture;
+    fixture.barrier(2).oldLayout = vk::ImageLayout::eUndefined;
+    CHECK(fixture.finds("content of a is needed by pass sample and was discarded"));
+}
+
+TEST_CASE("hazards: an output that the host could read too early is found") {
+    Fixture fixture;
+    fixture.compiled.finalBarriers.clear();
+    CHECK(fixture.finds("read-after-write hazard on result between passes copy and host"));
+}
+
+TEST_CASE("hazards: visibility to one stage and to another access do not add up") {
+    Fixture fixture;
+    const Barrier whole = fixture.barrier(2);
+    Barrier wrongAccess = whole, wrongStage = whole;
+    wrongAccess.dstAccess = vk::AccessFlagBits2::eUniformRead;
+    wrongStage.dstStages = vk::PipelineStageFlagBits2::eComputeShader;
+    wrongStage.oldLayout = wrongStage.newLayout;
+    fixture.barrier(2) = wrongAccess;
+    fixture.compiled.passes[2].barriers.push_back(wrongStage);
+    CHECK(fixture.finds("read-after-write hazard on a between passes blend and sample"));
 }

@@ -7,14 +7,26 @@
 
 namespace luciole::test {
 
-/// A renderer under core and synchronization validation. Each test that uses one ends by checking that nothing was said.
-class ValidatedRenderer {
+/// Options for core and synchronization validation, and the end of a test that must not have heard from it.
+class SilentValidation {
 public:
-    ValidatedRenderer() : renderer_({.validation = true, .onMessage = [this](std::string_view text) { messages_.emplace_back(text); }}) {}
-    ValidatedRenderer(const ValidatedRenderer&) = delete;
-    ~ValidatedRenderer() {
+    SilentValidation() = default;
+    SilentValidation(const SilentValidation&) = delete;
+    ~SilentValidation() {
         for (const std::string& message : messages_) FAIL_CHECK("validation: " << message);
     }
+    RendererOptions options() {
+        return {.validation = true, .onMessage = [this](std::string_view text) { messages_.emplace_back(text); }};
+    }
+
+private:
+    std::vector<std::string> messages_;
+};
+
+/// A renderer under validation. Each test that uses one fails if anything was said.
+class ValidatedRenderer {
+public:
+    ValidatedRenderer() : renderer_(validation_.options()) {}
     Renderer* operator->() { return &renderer_; }
     Frame render(const Scene& scene, const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs = {}) {
         renderer_.setScene(scene);
@@ -22,7 +34,7 @@ public:
     }
 
 private:
-    std::vector<std::string> messages_;  // outlives the renderer that reports into it
+    SilentValidation validation_;  // outlives the renderer that reports to it
     Renderer renderer_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "device.hpp"
 #include "image_difference.hpp"
+#include "render/shaders/types.shared.h"
 #include "scene_building.hpp"
 #include "scenes.hpp"
 
@@ -102,18 +103,64 @@ TEST_CASE("renderer: the depth set-up pass changes no pixel") {
     }
 }
 
+TEST_CASE("renderer: of surfaces that coincide the same one is seen with the depth set-up pass and without") {
+    Scene scene = sceneOf(quad(2), unlitMaterial(vec4(1, 0, 0, 1)));
+    addObject(scene, quad(2), unlitMaterial(vec4(0, 1, 0, 1)));
+    ValidatedRenderer renderer;
+    const View view{frontCamera(), {9, 9}};
+    CHECK(renderer.render(scene, view, {}).radiance.data == renderer.render(scene, view, {.depthPrepass = true}).radiance.data);
+}
+
+TEST_CASE("renderer: an object with a singular matrix is not drawn") {
+    const Scene scene = sceneOf(quad(2), unlitMaterial(), glm::scale(mat4(1), vec3(1, 1, 0)));
+    ValidatedRenderer renderer;
+    const Frame frame = renderer.render(scene, {frontCamera(), {9, 9}}, {}, {"id"});
+    CHECK(frame.aovs.at("id").at(4, 4, 0) == -1);
+}
+
+TEST_CASE("renderer: after a scene that the device can't hold it goes on with an empty one") {
+    ValidatedRenderer renderer;
+    Scene tooWide = sceneOf(quad(), {});
+    tooWide.materials[0].baseColorTexture = addTexture(tooWide, 40000, 1, std::vector<uint8_t>(160000));
+    CHECK_THROWS_WITH_AS(renderer->setScene(tooWide), doctest::Contains("texels 0"), Error);
+    CHECK(renderer->render({frontCamera(), {9, 9}}, {}).radiance.at(4, 4, 0) == 0);
+}
+
+TEST_CASE("renderer: a surface far beyond what 16 bits of depth tell apart stays lit and finite") {
+    Scene scene;
+    const Material material = lambertMaterial(scene);
+    addObject(scene, quad(20000), material);
+    scene.lights = {directionalLight(vec3(0, 0, -1), vec3(float(kPi)))};
+    ValidatedRenderer renderer;
+    for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
+        const Frame frame = renderer.render(scene, {frontCamera(70000), {9, 9}}, {.gbuffer = layout}, {"depth"});
+        CHECK(frame.radiance.at(4, 4, 0) == doctest::Approx(1).epsilon(1e-3));
+        CHECK(allFinite(frame.aovs.at("depth")));
+    }
+}
+
+TEST_CASE("renderer: a light that shines straight at the eye adds no NaN") {
+    Scene scene = sceneOf(quad(2), Material{});
+    const Material material = lambertMaterial(scene);
+    addObject(scene, quad(1), material, glm::translate(mat4(1), vec3(0, 0, 0.5f)));
+    scene.lights = {directionalLight(vec3(0, 0, 1))};
+    ValidatedRenderer renderer;
+    CHECK(allFinite(renderer.render(scene, {frontOrthographicCamera(), {17, 17}}, {}).radiance));
+}
+
 TEST_CASE("renderer: more lights than a uniform block holds are all there") {
     Scene scene;
     const Material material = lambertMaterial(scene);
     addObject(scene, quad(2), material);
     ValidatedRenderer renderer;
     const View view{frontCamera(), {9, 9}};
-    scene.lights.assign(910, directionalLight(vec3(0, 0, -1), vec3(0.001f)));
+    scene.lights.assign(shared::kUniformLights, directionalLight(vec3(0, 0, -1), vec3(0.001f)));
     const float within = renderer.render(scene, view, {}).radiance.at(4, 4, 0);
-    scene.lights.assign(911, directionalLight(vec3(0, 0, -1), vec3(0.001f)));
+    scene.lights.assign(shared::kUniformLights + 1, directionalLight(vec3(0, 0, -1), vec3(0.001f)));
     const float beyond = renderer.render(scene, view, {}).radiance.at(4, 4, 0);
-    CHECK(within == doctest::Approx(0.910 / kPi).epsilon(1e-3));  // 8-bit colour at 1, and 910 roundings
-    CHECK(beyond / within == doctest::Approx(911.0 / 910).epsilon(1e-5));
+    const double count = shared::kUniformLights;
+    CHECK(within == doctest::Approx(0.001 * count / kPi).epsilon(1e-3));  // a rounding per light
+    CHECK(beyond / within == doctest::Approx((count + 1) / count).epsilon(1e-5));
 }
 
 TEST_CASE("renderer: times are there when measured, bytes always, and the graph names every pass") {

@@ -3,6 +3,7 @@
 #include <luciole/scene_io.hpp>
 
 #include "device.hpp"
+#include "render/lighting/techniques.hpp"
 #include "image_difference.hpp"
 #include "scene_building.hpp"
 #include "scenes.hpp"
@@ -42,13 +43,18 @@ void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test, s
     const auto mask = interior(reference);
     for (const auto layout : layouts) {
         INFO("layout: " << int(layout));
-        const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = layout}, kMaskLayers);
-        const Difference radiance = difference(frame.radiance, reference.radiance, &mask);
         const Tolerance tolerance = toleranceOf(layout, test.textured);
-        INFO("mean " << radiance.mean << ", 99.9 % " << radiance.p999 << ", max " << radiance.max << ", compared " << radiance.share);
-        CHECK(radiance.share > 0.03);
-        CHECK(radiance.mean < tolerance.mean);
-        CHECK(radiance.p999 < tolerance.p999);
+        renderer->setScene(test.scene);
+        for (const auto& technique : render::techniques()) {
+            INFO("technique: " << technique.info.name);
+            const RenderSettings settings{.lighting = std::string(technique.info.name), .gbuffer = layout};
+            const Difference radiance = difference(renderer->render(test.view, settings).radiance, reference.radiance, &mask);
+            INFO("mean " << radiance.mean << ", 99.9 % " << radiance.p999 << ", max " << radiance.max << ", compared " << radiance.share);
+            CHECK(radiance.share > 0.03);
+            CHECK(radiance.mean < tolerance.mean);
+            CHECK(radiance.p999 < tolerance.p999);
+        }
+        const Frame frame = renderer->render(test.view, {.gbuffer = layout}, kMaskLayers);
         size_t wrong = 0;
         for (size_t i = 0; i < mask.size(); ++i)
             if (mask[i]) wrong += frame.aovs.at("id").data[i] != reference.aovs.at("id").data[i];
@@ -59,13 +65,13 @@ void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test, s
 
 }  // namespace
 
-TEST_CASE("brute force: matches the reference in every G-buffer layout, on scenes that use everything") {
+TEST_CASE("lighting: every technique matches the reference in every G-buffer layout, on scenes that use everything") {
     ValidatedRenderer renderer;
     for (const TestScene& test : testScenes())
         checkAgainstReference(renderer, test, {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact});
 }
 
-TEST_CASE("brute force: matches the reference on real assets") {
+TEST_CASE("lighting: every technique matches the reference on real assets") {
     LUCIOLE_ASSETS_OR_SKIP(folder);
     const std::filesystem::path rigs = std::filesystem::path(LUCIOLE_SOURCE_DIR) / "examples" / "rigs";
     struct Asset {
@@ -74,7 +80,7 @@ TEST_CASE("brute force: matches the reference on real assets") {
     ValidatedRenderer renderer;
     for (const Asset& asset : {Asset{"DamagedHelmet/DamagedHelmet.glb", "helmet.json"},
                                Asset{"LightsPunctualLamp/LightsPunctualLamp.gltf", nullptr},
-                               Asset{"SponzaSmall/SponzaSmall.glb", "sponza.json"},
+                               Asset{"Sponza/Sponza.gltf", "sponza.json"},
                                Asset{"CastlePunctualLights/test_lights.glb", nullptr},
                                Asset{"bench/hall-255-o4.glb", nullptr}}) {
         Scene scene = loadScene((folder / asset.file).string());
@@ -91,22 +97,57 @@ TEST_CASE("additional layers: equal the reference's where a ray and a rasterizer
     ValidatedRenderer renderer;
     const TestScene test = studio();
     const Frame reference = renderReference(test.scene, test.view, {}, aovNames());
-    const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = GBufferLayout::compact}, aovNames());
     const auto mask = interior(reference);
-    const auto compared = [&](const char* name) { return difference(frame.aovs.at(name), reference.aovs.at(name), &mask); };
-    CHECK(compared("material").max == 0);
-    CHECK(compared("id").max == 0);
-    CHECK(compared("depth").max < 1e-5);         // 32-bit depth, reversed
-    CHECK(compared("cs0").max < 0.02);           // 8 bits of the square root: 2 * 0.5 / 255 / sqrt(0.2), and the floor
-    CHECK(compared("light-count").p999 == 0);    // a pixel on a range's very edge may differ
-    double normalError = 0;
-    for (size_t i = 0; i < mask.size(); ++i) {
-        if (!mask[i]) continue;
-        const float* a = &frame.aovs.at("normal").data[3 * i];
-        const float* b = &reference.aovs.at("normal").data[3 * i];
-        normalError = std::max(normalError, glm::length(dvec3(a[0] - b[0], a[1] - b[1], a[2] - b[2])));
+    // Half a step of each layout: depth by 16 bits of near / z at 10 m, half floats, 32-bit floats; colours by 16 bits, or
+    // by 8 bits of their square root at 0.2.
+    struct Layout {
+        GBufferLayout layout;
+        double depth, color;
+    };
+    for (const auto& [layout, depth, color] : {Layout{GBufferLayout::calver, 2e-3, 2e-4}, Layout{GBufferLayout::floatPosition, 1e-3, 2e-4},
+                                               Layout{GBufferLayout::compact, 1e-5, 0.02}}) {
+        INFO("layout: " << int(layout));
+        const Frame frame = renderer.render(test.scene, test.view, {.gbuffer = layout}, aovNames());
+        const auto compared = [&](const char* name) { return difference(frame.aovs.at(name), reference.aovs.at(name), &mask); };
+        CHECK(compared("material").max == 0);
+        CHECK(compared("id").max == 0);
+        CHECK(compared("depth").max < depth);
+        CHECK(compared("cs0").max < color);
+        CHECK(compared("cs1").max < color);
+        if (layout == GBufferLayout::compact) CHECK(compared("light-count").p999 == 0);  // a pixel on a range's very edge may differ
+        double normalError = 0;
+        for (size_t i = 0; i < mask.size(); ++i) {
+            if (!mask[i]) continue;
+            const float* a = &frame.aovs.at("normal").data[3 * i];
+            const float* b = &reference.aovs.at("normal").data[3 * i];
+            normalError = std::max(normalError, glm::length(dvec3(a[0] - b[0], a[1] - b[1], a[2] - b[2])));
+        }
+        CHECK(normalError < 1e-4);  // octahedral, 16 bits: 2.4e-5 a coordinate at most
     }
-    CHECK(normalError < 1e-4);  // octahedral, 16 bits: 2.4e-5 a coordinate at most
+}
+
+TEST_CASE("assets: every one that loads renders, finite and not black, under validation") {
+    LUCIOLE_ASSETS_OR_SKIP(folder);
+    ValidatedRenderer renderer;
+    size_t rendered = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const auto& path = entry.path();
+        if ((path.extension() != ".glb" && path.extension() != ".gltf") || path.parent_path().filename() == "bad") continue;
+        INFO("asset: " << path.filename().string());
+        Scene scene;
+        try {
+            scene = loadScene(path.string());
+        } catch (const Error& error) {
+            CHECK(std::string(error.what()).find("extensionsRequired") != std::string::npos);
+            continue;
+        }
+        if (scene.lights.empty()) scene.lights.push_back(directionalLight(vec3(0.3f, -0.5f, -1), vec3(3)));
+        const Frame frame = renderer.render(scene, {autoCamera(scene), {32, 24}}, {});
+        CHECK(std::ranges::all_of(frame.radiance.data, [](float value) { return std::isfinite(value); }));
+        CHECK(std::ranges::any_of(frame.radiance.data, [](float value) { return value > 0; }));
+        ++rendered;
+    }
+    CHECK(rendered >= 35);
 }
 
 TEST_CASE("display: the device's tone mapping equals the CPU's") {

@@ -50,6 +50,42 @@ TestScene texturedFloor() {
     return {"textured floor", std::move(scene), {camera, {192, 144}}, true};
 }
 
+/// Squares that between them use every wrap mode and filter, both UV sets, texture transforms, alpha masks, a mirrored
+/// object and the back of a double-sided one.
+TestScene textureCorners() {
+    Scene scene;
+    std::vector<uint8_t> texels;
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            texels.insert(texels.end(), {uint8_t(x * 17), uint8_t(y * 17), uint8_t((x ^ y) & 4 ? 255 : 30), uint8_t(x > y ? 255 : 90)});
+    const Sampler samplers[] = {
+        {.wrapU = Wrap::mirroredRepeat, .wrapV = Wrap::clampToEdge},
+        {.wrapU = Wrap::clampToEdge, .wrapV = Wrap::mirroredRepeat},
+        {.magFilter = Filter::nearest, .minFilter = Filter::nearest, .mipFilter = MipFilter::none},
+        {.minFilter = Filter::linear, .mipFilter = MipFilter::none},
+        {.minFilter = Filter::linear, .mipFilter = MipFilter::nearest},
+        {.magFilter = Filter::nearest, .mipFilter = MipFilter::linear},
+    };
+    for (int i = 0; i < 12; ++i) {
+        Mesh mesh = quad(0.45f, 1.7f);
+        for (Vertex& vertex : mesh.vertices) vertex.uv1 = 2.0f * vertex.uv0 + vec2(0.3f, 0.1f);
+        Material material = metallicRoughness(vec3(1), 0, 0.8f);
+        material.baseColorTexture = addTexture(scene, 16, 16, texels, samplers[i % 6]);
+        material.normalTexture = addTexture(scene, 1, 1, {180, 150, 220, 255});
+        material.baseColorTexture.uvSet = uint32_t(i / 6);
+        if (i % 2) material.baseColorTexture.uvTransform = {vec3(0.8f, 0.6f, 0.2f), vec3(-0.9f, 1.2f, -0.4f)};
+        if (i % 3 == 2) material.alphaMode = AlphaMode::mask;
+        material.doubleSided = i >= 8;
+        const float turn = i >= 10 ? 2.6f : 0.1f * float(i);
+        mat4 place = glm::rotate(glm::translate(mat4(1), vec3(float(i % 4) - 1.5f, 1.0f - float(i / 4), 0)), turn, vec3(0.2f, 1, 0));
+        if (i == 3 || i == 6) place = glm::scale(place, vec3(-1, 1, 1));
+        addObject(scene, mesh, material, place);
+    }
+    scene.lights = {directionalLight(vec3(0.3f, -0.4f, -1), vec3(3))};
+    scene.ambience = {vec3(0.3f), vec3(0.3f)};
+    return {"texture corners", std::move(scene), {frontCamera(3.6f), {192, 144}}, true};
+}
+
 }  // namespace
 
 TestScene studio() {
@@ -94,7 +130,7 @@ TestScene studio() {
 }
 
 std::vector<TestScene> testScenes() {
-    std::vector<TestScene> scenes{studio(), texturedFloor()};
+    std::vector<TestScene> scenes{studio(), texturedFloor(), textureCorners()};
     TestScene orthographic = studio();
     orthographic.name = "studio, orthographic";
     orthographic.view.camera.orthographic = true;

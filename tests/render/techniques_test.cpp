@@ -15,13 +15,15 @@ TEST_CASE("lighting: each technique equals brute force to one rounding per light
     for (const TestScene& test : testScenes()) {
         INFO("scene: " << test.name);
         renderer->setScene(test.scene);
-        const Frame yardstick = renderer->render(test.view, {.lighting = "brute-force"});
-        for (const auto& technique : render::techniques()) {
-            INFO("technique: " << technique.info.name);
-            const Frame frame = renderer->render(test.view, {.lighting = std::string(technique.info.name)});
-            // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
-            const double bound = 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24);
-            CHECK(difference(frame.radiance, yardstick.radiance).max <= bound);
+        for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
+            const Frame yardstick = renderer->render(test.view, {.lighting = "brute-force", .gbuffer = layout});
+            for (const auto& technique : render::techniques()) {
+                INFO("technique: " << technique.info.name);
+                const Frame frame = renderer->render(test.view, {.lighting = std::string(technique.info.name), .gbuffer = layout});
+                // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
+                const double bound = 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24);
+                CHECK(difference(frame.radiance, yardstick.radiance).max <= bound);
+            }
         }
     }
 }

@@ -1,5 +1,8 @@
 #include "device.hpp"
+#include "frame/executor.hpp"
+#include "frame/pass_context.hpp"
 #include "gpu/resources.hpp"
+#include "gpu/shaders.hpp"
 
 using namespace luciole;
 
@@ -38,4 +41,40 @@ TEST_CASE("validation: a missing barrier between two transfers is reported") {
     });
     REQUIRE(!messages.empty());
     CHECK(messages.front().find("SYNC-HAZARD-READ-AFTER-WRITE") != std::string::npos);
+}
+
+TEST_CASE("validation: a pass that breaks a rule fails the test that runs it" * doctest::should_fail()) {
+    test::SilentValidation validation;
+    const gpu::Context context(validation.options());
+    gpu::Pipelines pipelines(context, gpu::shaderCode);
+    frame::FrameGraph graph;
+    const frame::BufferId result = graph.createBuffer("result", 64);
+    graph.addPass("wrong").write(result, frame::Access::transferWrite).record([result](frame::PassContext& pass) {
+        pass.commands.fillBuffer(pass.buffer(result), 0, 6, 0);  // no multiple of 4
+    });
+    graph.output(result);
+    frame::Executor(context, pipelines, std::move(graph)).run({}, false);
+}
+
+TEST_CASE("executor: a pass that uses what it did not declare throws, and the next run starts afresh") {
+    test::SilentValidation validation;
+    const gpu::Context context(validation.options());
+    gpu::Pipelines pipelines(context, gpu::shaderCode);
+    frame::FrameGraph graph;
+    const frame::BufferId declared = graph.createBuffer("declared", 64), other = graph.createBuffer("other", 64);
+    bool wrong = true;
+    graph.addPass("fill").write(declared, frame::Access::transferWrite).record([&](frame::PassContext& pass) {
+        pass.commands.fillBuffer(pass.buffer(wrong ? other : declared), 0, 64, 7);
+    });
+    graph.addPass("other").write(other, frame::Access::transferWrite).record([&](frame::PassContext& pass) {
+        pass.commands.fillBuffer(pass.buffer(other), 0, 64, 8);
+    });
+    graph.output(declared);
+    graph.output(other);
+    frame::Executor executor(context, pipelines, std::move(graph));
+    CHECK_THROWS_WITH(executor.run({}, false), doctest::Contains("pass fill uses a resource that it did not declare"));
+    wrong = false;
+    executor.run({}, false);
+    CHECK(executor.read<uint32_t>(declared)[3] == 7);
+    CHECK(executor.read<uint32_t>(other)[3] == 8);
 }
