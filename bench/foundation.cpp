@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstring>
+#include <cstdio>
 #include <map>
 
 namespace {
@@ -40,13 +39,16 @@ void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) 
     const Scene scene = loadScene(fmt::format("builtin:hall?lights={}&overlap=4&triangles=40000&seed=1", lights));
     renderer.setScene(scene);
     const View view{scene.cameras.at(0), extent};
-    const std::string techniques[] = {"brute-force", "fullscreen"};
+    std::vector<std::string> techniques;
+    for (const LightingTechniqueInfo& technique : lightingTechniques())
+        if (technique.name != "reference") techniques.emplace_back(technique.name);
     std::map<std::string, Samples> samples;
     double covered = 0;
     const Frame depths = renderer.render(view, {}, {"depth"});
     for (const float depth : depths.aovs.at("depth").data) covered += depth > 0;
-    for (const std::string& technique : techniques) renderer.render(view, {.lighting = technique, .measure = true});  // warm-up
-    for (int frame = 0; frame < frames; ++frame)  // interleaved, so that the machine's drift meets both
+    // Interleaved, so that the machine's drift meets all. A change of technique makes the frame anew, and a measured frame
+    // that was made anew is preceded by one that does not count.
+    for (int frame = 0; frame < frames; ++frame)
         for (const std::string& technique : techniques) {
             const Frame measured = renderer.render(view, {.lighting = technique, .measure = true});
             for (const PassStats& pass : measured.stats.passes) samples[technique][pass.name].push_back(pass.ms.value());
@@ -70,10 +72,11 @@ int main(int argc, char** argv) {
     try {
         int frames = 10;
         uvec2 extent(1024, 768);
-        if (argc > 1) std::from_chars(argv[1], argv[1] + std::strlen(argv[1]), frames);
-        if (argc > 2 && std::sscanf(argv[2], "%ux%u", &extent.x, &extent.y) != 2)
+        char rest = 0;
+        if (argc > 1 && (std::sscanf(argv[1], "%d%c", &frames, &rest) != 1 || frames < 1))
+            throw Error(ErrorKind::usage, fmt::format("expected a number of frames >= 1, got \"{}\"", argv[1]));
+        if (argc > 2 && std::sscanf(argv[2], "%5ux%5u%c", &extent.x, &extent.y, &rest) != 2)
             throw Error(ErrorKind::usage, fmt::format("expected WIDTHxHEIGHT, got \"{}\"", argv[2]));
-        if (frames < 1) throw Error(ErrorKind::usage, fmt::format("expected a number of frames >= 1, got \"{}\"", argv[1]));
         Renderer renderer;
         fmt::print("{}, {}; {}x{}; builtin:hall, overlap 4, 40,000 triangles; {} frames, interleaved\n", renderer.device().name,
                    renderer.device().driver, extent.x, extent.y, frames);
@@ -82,5 +85,8 @@ int main(int argc, char** argv) {
     } catch (const Error& error) {
         fmt::print(stderr, "luciole_bench: error: {}\n", error.what());
         return int(error.kind());
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "luciole_bench: error: {}\n", error.what());
+        return 1;
     }
 }
