@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 namespace luciole::cli {
@@ -32,19 +33,29 @@ void Console::warn(const std::vector<std::string>& warnings) const {
     if (shown < warnings.size()) note(fmt::format("... and {} more warnings; -v shows all", warnings.size() - shown));
 }
 
-ProgressLine::ProgressLine(const Console& console, std::string label)
-    : label_(std::move(label)), enabled_(!console.quiet && ::isatty(STDERR_FILENO) != 0) {}
-
-ProgressLine::~ProgressLine() {
-    if (percent_ >= 0) say(fmt::format("\r{:{}}\r", "", label_.size() + 6));
+ProgressLine::ProgressLine(const Console& console, std::string label) : label_(std::move(label)) {
+    if (!console.quiet && ::isatty(STDERR_FILENO) != 0) thread_ = std::jthread([this](const std::stop_token& stop) { draw(stop); });
 }
 
-void ProgressLine::show(double share) {
-    const int percent = int(100 * share);
-    if (!enabled_ || percent == percent_ || Clock::now() - start_ < std::chrono::seconds(1)) return;
-    percent_ = percent;
-    say(fmt::format("\r{} {:3} %", label_, percent));
-    std::fflush(stderr);
+ProgressLine::~ProgressLine() = default;
+
+void ProgressLine::draw(const std::stop_token& stop) {
+    using namespace std::chrono_literals;
+    const auto start = std::chrono::steady_clock::now();
+    const auto pause = [&](std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, stop, time, [] { return false; });
+    };
+    size_t width = 0;
+    for (pause(1s); !stop.stop_requested(); pause(200ms)) {
+        const double share = share_;
+        const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start).count();
+        const std::string line = share < 0 ? fmt::format("{} {} s", label_, seconds) : fmt::format("{} {:3.0f} %", label_, 100 * share);
+        width = std::max(width, line.size());
+        say(fmt::format("\r{:{}}", line, width));
+        std::fflush(stderr);
+    }
+    if (width > 0) say(fmt::format("\r{:{}}\r", "", width));
 }
 
 }  // namespace luciole::cli

@@ -1,7 +1,10 @@
 #pragma once
-#include <chrono>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace luciole::cli {
@@ -23,7 +26,8 @@ public:
     void warn(const std::vector<std::string>& warnings) const;  ///< unless quiet; the first ones, then a count
 };
 
-/// A line with the share done that is drawn over and over, from one second on, on a terminal only.
+/// A line that says what is going on and for how long, or how much of it is done. Drawn from one second on, on a terminal
+/// only, by a thread of its own: neither a driver nor a reader calls back while it works.
 class ProgressLine {
 public:
     ProgressLine(const Console& console, std::string label);
@@ -31,14 +35,16 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
     ~ProgressLine();  ///< wipes the line
 
-    void show(double share);  ///< \param share done, [0, 1]
+    void show(double share) { share_ = share; }  ///< \param share done, [0, 1]; never called: the time is shown
 
 private:
-    using Clock = std::chrono::steady_clock;
+    void draw(const std::stop_token& stop);
+
     std::string label_;
-    bool enabled_;
-    int percent_ = -1;  ///< what stands there now
-    Clock::time_point start_ = Clock::now();
+    std::atomic<double> share_ = -1;
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::jthread thread_;  // last: it uses the others
 };
 
 }  // namespace luciole::cli

@@ -61,8 +61,12 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
 }
 
 Scene loadScene(const SceneOptions& options, const Console& console) {
-    Scene scene = luciole::loadScene(options.uri, {.allowExternal = options.allowExternal});
-    for (const std::string& rig : options.rigs) applyRig(scene, rig);
+    Scene scene = [&] {
+        const ProgressLine progress(console, "reading the scene:");
+        Scene read = luciole::loadScene(options.uri, {.allowExternal = options.allowExternal});
+        for (const std::string& rig : options.rigs) applyRig(read, rig);
+        return read;
+    }();
     console.warn(scene.warnings);
     return scene;
 }

@@ -47,8 +47,8 @@ void addDeviceOptions(CLI::App& command, RendererOptions& options) {
 }
 
 void addReportOptions(CLI::App& command, RenderOptions& options) {
-    command.add_flag("--json", options.json, "print statistics as JSON on standard output")->group("Messages");
-    command.add_flag("--stats", options.stats, "print a table of the passes on standard error")->group("Messages");
+    command.add_flag("--json", options.json, "print statistics as JSON on standard output; implies --measure")->group("Messages");
+    command.add_flag("--stats", options.stats, "print a table of the passes on standard error; implies --measure")->group("Messages");
     addConsoleOptions(command, options.console);
 }
 
@@ -74,13 +74,12 @@ void requireTechnique(const std::string& name) {
 }
 
 Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, const Scene& scene, const View& view) {
-    if (settings.lighting == kReference) {
-        ProgressLine progress(options.console, "reference:");
+    ProgressLine progress(options.console, "rendering:");
+    if (settings.lighting == kReference)
         return renderReference(scene, view, settings, options.output.aovs, [&](double share) {
             progress.show(share);
             return true;
         });
-    }
     RendererOptions rendererOptions = options.renderer;
     rendererOptions.onMessage = [](std::string_view message) { say(fmt::format("luciole: {}\n", message)); };
     Renderer renderer(rendererOptions);
@@ -91,7 +90,8 @@ Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, 
 
 /// Everything that can be refused is checked before the scene is read, and again before the frame is rendered.
 void run(const RenderOptions& options) {
-    const RenderSettings settings = resolve(options.settings);
+    RenderSettings settings = resolve(options.settings);
+    settings.measure |= options.json || options.stats;  // whoever asks for the passes wants their times
     requireTechnique(settings.lighting);
     if (settings.lighting == kReference && !options.output.graphFile.empty())
         throw Error(ErrorKind::usage, "--dump-graph: the reference has no frame graph");
@@ -110,7 +110,6 @@ void run(const RenderOptions& options) {
     }
     const Frame frame = renderFrame(options, settings, scene, view);
     options.console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
-    options.console.warn(frame.stats.warnings);
     writeOutputs(options.output, frame);
     options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
     if (options.stats) say(statisticsTable(frame.stats));

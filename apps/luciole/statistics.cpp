@@ -22,7 +22,6 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings) {
     for (const PassStats& pass : stats.passes)
         json["passes"].push_back(
             {{"name", pass.name}, {"ms", pass.ms ? Json(*pass.ms) : Json()}, {"bytes", pass.bytes}});
-    json["warnings"] = stats.warnings;
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

@@ -51,7 +51,6 @@ struct FrameStats {
     uint64_t triangles = 0;
     uint32_t lights = 0;
     std::string deviceName, driver;
-    std::vector<std::string> warnings;
 };
 
 /// One rendered picture. All images have the view's size.

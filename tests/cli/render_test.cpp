@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <luciole/output.hpp>
 #include <luciole/renderer.hpp>
 #include <luciole/scene_io.hpp>
@@ -144,10 +145,18 @@ TEST_CASE("cli: with a device, the default technique renders the picture and the
     const TemporaryFolder folder;
     const std::string png = folder / "a.png", dot = folder / "a.dot";
     const Run run = runLuciole({"render", "builtin:materials", "--size", "64x48", "-o", png, "--dump-graph", dot,
-                                "--stats", "--measure", "--validation"});
+                                "--stats", "--json", "--validation"});
     CAPTURE(run.err);
     CHECK(run.exitCode == 0);
     CHECK_FALSE(isBlack(readPng(png)));
     CHECK(has(textOf(dot), "digraph"));
     CHECK(has(run.err, "lights, "));
+    CHECK_FALSE(has(run.err, "VUID"));
+    CHECK_FALSE(has(run.err, "SYNC-HAZARD"));
+    const auto passes = nlohmann::json::parse(run.out)["passes"];
+    REQUIRE(passes.size() >= 4);
+    for (const auto& pass : passes) {
+        CHECK(pass["ms"].get<double>() > 0);
+        CHECK(pass["bytes"].get<uint64_t>() > 0);
+    }
 }

@@ -103,20 +103,21 @@ TEST_CASE("cli: --json prints statistics, and nothing else, on standard output")
 TEST_CASE("cli: the command line wins over the settings file, and the file over the defaults") {
     const TemporaryFolder folder;
     const std::string file = folder / "settings.json";
-    writeText(file, R"({"tonemap": "agx", "exposure": 2, "depth-prepass": true, "measure": true})");
-    const auto settings = statistics({"--settings", file, "--exposure", "-0.5", "--measure=off"})["settings"];
+    writeText(file, R"({"tonemap": "agx", "exposure": 2, "depth-prepass": true, "light-buffer": "rgba16f"})");
+    const auto settings = statistics({"--settings", file, "--exposure", "-0.5", "--depth-prepass=off"})["settings"];
     CHECK(settings["tonemap"] == "agx");
     CHECK(settings["exposure"] == "-0.5");
-    CHECK(settings["depth-prepass"] == "on");
-    CHECK(settings["measure"] == "off");
+    CHECK(settings["depth-prepass"] == "off");
+    CHECK(settings["light-buffer"] == "rgba16f");
+    CHECK(settings["measure"] == "on");  // --json implies it
     CHECK(settings["gbuffer"] == "compact");
 }
 
 TEST_CASE("cli: a switch takes no word after it, so the scene may follow") {
     const TemporaryFolder folder;
-    const Run run = runLuciole({"render", "--measure", "builtin:materials", "--size", "1x1", "--lighting", "reference",
+    const Run run = runLuciole({"render", "--depth-prepass", "builtin:materials", "--size", "1x1", "--lighting", "reference",
                                 "--json", "-o", folder / "a.png"});
-    CHECK(nlohmann::json::parse(run.out)["settings"]["measure"] == "on");
+    CHECK(nlohmann::json::parse(run.out)["settings"]["depth-prepass"] == "on");
 }
 
 TEST_CASE("cli: --stats prints its table on standard error, -q prints nothing") {
