@@ -210,6 +210,9 @@ void checkLight(const Element& element, const Light& light, const Scene& scene) 
     element.optionalIndex("attenuation", light.attenuation, scene.functions.size());
     if (placed && light.attenuation != kNone) {
         element.expect(isFinite(light.range), "range", "finite, as the light has an attenuation function", light.range);
+        // Calver 2003, "Shaped Lights": the last texel should be 0, or the light ends in a hard edge.
+        const auto last = float(evaluate(scene.functions[light.attenuation], 1, 0).x);
+        element.expect(last == 0, "attenuation", "a function that is 0 at 1, the range's end (such as linear or smooth)", last);
     }
     element.optionalIndex("falloff", light.falloff, scene.functions.size());
     element.optionalIndex("linkGroup", light.linkGroup, scene.linkGroups.size());

@@ -232,6 +232,32 @@ TEST_CASE("glTF wall: a number beyond float's range is refused and never becomes
     CHECK(refusalOf([&] { loadText(overflowing); }).kind == ErrorKind::scene);
 }
 
+TEST_CASE("glTF wall: a small file can't ask for many elements by zeros that no buffer holds") {
+    const std::string zeros = R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"componentType":5126,"type":"VEC3","count":60000000}]})";
+    const Refusal refusal = refusalOf([&] { loadText(zeros); });
+    CHECK(refusal.kind == ErrorKind::limit);
+    CHECK(refusal.message == "test.gltf: /accessors/0/count: expected at most 1000000 elements, got 60000000");
+}
+
+TEST_CASE("glTF wall: primitives that are not drawn cost once, however many nodes place their mesh") {
+    Json json = {{"asset", {{"version", "2.0"}}}, {"scenes", Json::array({Json::object()})}, {"nodes", Json::array()}};
+    json["meshes"] = Json::array({Json::object()});
+    for (int i = 0; i < 20000; ++i)
+        json["meshes"][0]["primitives"].push_back({{"attributes", Json::object()}, {"mode", 0}});
+    for (int i = 0; i < 60000; ++i) {
+        json["nodes"].push_back({{"mesh", 0}});
+        json["scenes"][0]["nodes"].push_back(i);
+    }
+    CHECK(loadText(json.dump()).objects.empty());  // 1.2e9 visits took minutes
+}
+
+TEST_CASE("glTF: what is neither GLB nor JSON is told so") {
+    CHECK(refusalOf([] { loadText("PK\x03\x04"); }).message ==
+          "test.gltf: expected \"glTF\" (GLB) or a JSON object at the beginning");
+}
+
 TEST_CASE("glTF: other major versions are refused, later minor ones are read") {
     CHECK(refusalOf([] { loadText(R"({"asset":{"version":"1.0"}})"); }).message ==
           "test.gltf: /asset/version: expected 2.x, got \"1.0\"");

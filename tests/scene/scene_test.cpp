@@ -334,6 +334,8 @@ TEST_CASE("validate: each broken rule is named with its element") {
         {"lights[0] \"lamp\": outerConeAngle", [&](Scene& s) { spot(s, 0, 0); }},
         {"lights[0] \"lamp\": attenuation: expected an index below 1, got 1",
          [](Scene& s) { s.lights[0].attenuation = 1; }},
+        {"lights[0] \"lamp\": attenuation: expected a function that is 0 at 1, the range's end (such as linear or smooth), got 1",
+         [](Scene& s) { s.lights[0].attenuation = 0; s.lights[0].range = 2; }},
         {"lights[0] \"lamp\": range: expected finite, as the light has an attenuation function, got inf",
          [](Scene& s) { s.lights[0].attenuation = 0; }},
         {"lights[0] \"lamp\": falloff", [](Scene& s) { s.lights[0].falloff = 1; }},

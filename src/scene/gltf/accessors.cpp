@@ -125,11 +125,18 @@ Accessors::Layout Accessors::layout(const JsonNode& accessor, uint32_t low, uint
     }
     const JsonNode count = accessor.at("count");
     const uint64_t elements = count.integer(0, ~0ull);
-    if (elements > limits_.maxVertices) {
-        throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} elements, got {}", count.where(),
-                                                  limits_.maxVertices, elements));
+    // Elements with a buffer view are bounded by it.
+    const uint64_t limit = accessor.find("bufferView") ? limits_.maxVertices : allowance();
+    if (elements > limit) {
+        throw Error(ErrorKind::limit,
+                    fmt::format("{}: expected at most {} elements, got {}", count.where(), limit, elements));
     }
     return {elements, componentType(accessor), components, booleanOr(accessor, "normalized", false)};
+}
+
+uint64_t Accessors::allowance() const {
+    constexpr uint64_t kAlways = 1'000'000;
+    return std::min(limits_.maxVertices, std::max(kAlways, buffers_.suppliedBytes()));
 }
 
 /// Calls `decode(i, bytes)` for element i, twice for one that is replaced by the sparse part (section 3.6.2.3), and not

@@ -28,6 +28,10 @@ public:
     /// The accessor of unsigned integer scalars that `reference` is the index of.
     std::vector<uint32_t> indices(const JsonNode& reference);
 
+    /// How many elements may be decoded in all, of one kind: as many as the buffers read so far have bytes, for a small file
+    /// can ask for many by zeros that no buffer holds and by naming one buffer often.
+    uint64_t allowance() const;
+
 private:
     struct Layout;
     Layout layout(const JsonNode& accessor, uint32_t low, uint32_t high);

@@ -55,7 +55,12 @@ constexpr uint32_t kHeaderBytes = 12;
 }  // namespace
 
 Container splitContainer(std::span<const std::byte> bytes, const std::string& file) {
-    if (!asText(bytes).starts_with(kGlbMagic)) return {asText(bytes), {}};
+    if (!asText(bytes).starts_with(kGlbMagic)) {
+        const size_t first = asText(bytes).find_first_not_of(" \t\r\n");
+        if (first != std::string_view::npos && std::string_view("{[\"\xEF").find(asText(bytes)[first]) == std::string_view::npos)
+            throw Error(ErrorKind::scene, fmt::format("{}: expected \"glTF\" (GLB) or a JSON object at the beginning", file));
+        return {asText(bytes), {}};
+    }
     GlbBytes glb(bytes, file);
     glb.take(kGlbMagic.size(), "header");
     if (const uint32_t version = glb.takeUint("header"); version != 2) {

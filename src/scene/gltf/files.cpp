@@ -120,6 +120,13 @@ BufferView Buffers::view(const JsonNode& reference) {
     return {bytes.subspan(offset, length), stride};
 }
 
+uint64_t Buffers::suppliedBytes() const {
+    uint64_t sum = binaryChunk_.size();
+    for (const auto& [index, bytes] : embedded_) sum += bytes.size();
+    for (const auto& [path, bytes] : external_) sum += bytes.size();
+    return sum;
+}
+
 std::span<const std::byte> Buffers::buffer(uint32_t index) {
     if (const auto found = buffers_.find(index); found != buffers_.end()) return found->second;
     const JsonNode json = root_.at("buffers")[index];

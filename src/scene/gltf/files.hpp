@@ -51,6 +51,9 @@ public:
     /// The buffer view that `reference` is the index of; lies within its buffer. Valid as long as this object.
     BufferView view(const JsonNode& reference);
 
+    /// Bytes of the buffers read so far: what the file has supplied.
+    uint64_t suppliedBytes() const;
+
 private:
     std::span<const std::byte> buffer(uint32_t index);
     std::span<const std::byte> load(uint32_t index, const JsonNode& buffer);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <fmt/ranges.h>
@@ -95,6 +96,23 @@ private:
                 fmt::format("{} \"{}\": its matrix can't be inverted; not drawn", node.json.path(), node.name));
             return;
         }
+        for (const Drawn& drawn : drawnOf(meshIndex, mesh)) {
+            if (scene_.objects.size() >= limits_.maxElements) {
+                throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} objects in all, got more",
+                                                          node.json.where(), limits_.maxElements));
+            }
+            scene_.objects.push_back({node.name, drawn.mesh, drawn.material, mat4(node.worldFromNode), objectId});
+        }
+    }
+
+    /// What a mesh's primitives become. Read once however many nodes place the mesh, so that those which are not drawn
+    /// cost once, too.
+    struct Drawn {
+        uint32_t mesh, material;
+    };
+    const std::vector<Drawn>& drawnOf(uint32_t meshIndex, const JsonNode& mesh) {
+        const auto [found, isNew] = drawn_.try_emplace(meshIndex);
+        if (!isNew) return found->second;
         const JsonNode primitives = mesh.at("primitives");
         const std::string name = stringOr(mesh, "name", fmt::format("mesh {}", meshIndex));
         for (size_t i = 0; i < primitives.size(); ++i) {
@@ -104,13 +122,9 @@ private:
             const TextureUse& normalTexture = scene_.materials[material].normalTexture;
             const uint32_t tangentUvSet = normalTexture.texture == kNone ? kNone : normalTexture.uvSet;
             const uint32_t loaded = meshes_.load(primitive, name, tangentUvSet);
-            if (loaded == kNone) continue;
-            if (scene_.objects.size() >= limits_.maxElements) {
-                throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} objects in all, got more",
-                                                          node.json.where(), limits_.maxElements));
-            }
-            scene_.objects.push_back({node.name, loaded, material, mat4(node.worldFromNode), objectId});
+            if (loaded != kNone) found->second.push_back({loaded, material});
         }
+        return found->second;
     }
 
     void checkSkin(const JsonNode& reference) {
@@ -120,7 +134,7 @@ private:
         for (size_t i = 0; i < joints.size(); ++i) indexInto(root_, "nodes", joints[i]);
         if (const auto skeleton = skin.find("skeleton")) indexInto(root_, "nodes", *skeleton);
         if (const auto matrices = skin.find("inverseBindMatrices")) indexInto(root_, "accessors", *matrices);
-        warnings_.add("skins are not supported; meshes are shown at their nodes, as they were before skinning");
+        warnings_.add("skins are not supported; meshes are shown at their nodes, in the pose that they were made in");
     }
 
     JsonNode root_;
@@ -132,6 +146,7 @@ private:
     Textures textures_;
     Materials materials_;
     Meshes meshes_;
+    std::map<uint32_t, std::vector<Drawn>> drawn_;
     std::set<std::string> checkedSkins_;
     uint32_t nextObjectId_ = 0;
 };

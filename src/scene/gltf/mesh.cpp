@@ -177,9 +177,9 @@ std::vector<uint32_t> Meshes::readTriangles(const JsonNode& primitive, uint32_t 
 
 void Meshes::charge(const JsonNode& primitive, uint64_t& total, uint64_t more, std::string_view what) const {
     total += more;
-    if (total > limits_.maxVertices) {
-        throw Error(ErrorKind::limit, fmt::format("{}: expected at most {} {} in all, got {}", primitive.where(),
-                                                  limits_.maxVertices, what, total));
+    if (const uint64_t limit = accessors_.allowance(); total > limit) {
+        throw Error(ErrorKind::limit,
+                    fmt::format("{}: expected at most {} {} in all, got {}", primitive.where(), limit, what, total));
     }
 }
 
