@@ -79,7 +79,7 @@ TEST_CASE("lighting: every technique matches the reference on real assets") {
     };
     ValidatedRenderer renderer;
     for (const Asset& asset : {Asset{"DamagedHelmet/DamagedHelmet.glb", "helmet.json"},
-                               Asset{"LightsPunctualLamp/LightsPunctualLamp.gltf", nullptr},
+                               Asset{"LightsPunctualLamp/LightsPunctualLamp.gltf", "lamp.json"},
                                Asset{"Sponza/Sponza.gltf", "sponza.json"},
                                Asset{"CastlePunctualLights/test_lights.glb", nullptr},
                                Asset{"bench/hall-255-o4.glb", nullptr}}) {
