@@ -184,9 +184,9 @@ struct Ambience {
 
 struct Camera {
     std::string name;
-    mat4 worldFromView{1};      ///< rigid; looks down -Z
+    mat4 worldFromView{1};      ///< rigid, at most 1e17 m from the origin; looks down -Z
     bool orthographic = false;
-    float yFov = 0.9f;          ///< radians, (0, pi); perspective
+    float yFov = 0.9f;          ///< radians, [1e-4, pi); perspective
     float halfHeight = 1;       ///< metres, > 0; orthographic. The width follows from the picture's aspect
     float zNear = 0.1f;         ///< metres, > 0 (orthographic: >= 0). Perspective has no far plane
     float zFar = 1000;          ///< metres, > zNear; orthographic only
@@ -229,6 +229,7 @@ bool isDrawn(const Object& object);
 /// Checks every rule stated in this header.
 /// \throws Error(scene) naming the element, the rule and what was found; Error(limit) for the kMax* constants
 void validate(const Scene& scene);
+void validate(const Camera& camera);
 
 /// Value (shape, cascade) of a dot-product, attenuation or falloff function, in double precision.
 /// \param x anywhere; clamped to the domain [low, 1], with low = -1 for dot products and cosines, 0 for attenuation

@@ -79,7 +79,12 @@ Image makeImage(const Context& context, const std::string& name, const ImageRequ
     const auto requirements = image.handle.getMemoryRequirements();
     image.bytes = requirements.size;
     image.memory = context.allocate(requirements, vk::MemoryPropertyFlagBits::eDeviceLocal);
-    image.handle.bindMemory(*image.memory, 0);
+    try {
+        image.handle.bindMemory(*image.memory, 0);
+    } catch (const vk::OutOfDeviceMemoryError&) {  // where Mesa's software driver says that an image is too large
+        throw Error(ErrorKind::limit, fmt::format("{}: expected an image that {} can hold, got {} x {} texels, {} bytes", name,
+                                                  context.info().name, request.extent.width, request.extent.height, requirements.size));
+    }
     image.view = vk::raii::ImageView(
         context.device(), {.image = *image.handle,
                            .viewType = vk::ImageViewType::e2D,

@@ -18,6 +18,11 @@ void checkRequest(const View& view, const std::vector<std::string>& aovs) {
         if (side < 1 || side > kMaxPictureSide)
             throw Error(ErrorKind::usage, fmt::format("size: expected 1 to {} pixels a side, got {}x{}", kMaxPictureSide,
                                                       view.extent.x, view.extent.y));
+    try {
+        validate(view.camera);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::usage, fmt::format("view: {}", error.what()));
+    }
     for (const std::string& name : aovs)
         if (std::ranges::find(aovNames(), name) == aovNames().end())
             throw Error(ErrorKind::usage,

@@ -152,6 +152,8 @@ template <typename Work>
 auto translatingVulkanErrors(const Work& work) {
     try {
         return work();
+    } catch (const vk::InitializationFailedError& error) {
+        throw Error(ErrorKind::device, fmt::format("Vulkan: {}", error.what()));
     } catch (const vk::SystemError& error) {
         throw Error(ErrorKind::deviceLost, fmt::format("Vulkan: {}", error.what()));
     }

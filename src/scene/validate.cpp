@@ -222,8 +222,11 @@ void checkCamera(const Element& element, const Camera& camera) {
     element.finite("worldFromView", camera.worldFromView);
     element.expect(isRigid(camera.worldFromView), "worldFromView", "rotation and translation only",
                    camera.worldFromView);
+    // Embree refuses rays that start 1e18 and more from the origin.
+    const float distance = length(vec3(camera.worldFromView[3]));
+    element.expect(distance <= 1e17f, "worldFromView", "at most 1e17 m from the origin", distance);
     if (!camera.orthographic) {
-        element.expect(camera.yFov > 0 && camera.yFov < float(kPi), "yFov", "(0, pi)", camera.yFov);
+        element.expect(camera.yFov >= 1e-4f && camera.yFov < float(kPi), "yFov", "[0.0001, pi)", camera.yFov);
         element.expect(camera.zNear > 0 && isFinite(camera.zNear), "zNear", "a finite number > 0", camera.zNear);
         return;
     }
@@ -270,5 +273,7 @@ void validate(const Scene& scene) {
     ambience.unit("upWorld", scene.ambience.upWorld);
     Element("scene").finite("exposureEv", scene.exposureEv);
 }
+
+void validate(const Camera& camera) { checkCamera(Element("camera"), camera); }
 
 }  // namespace luciole

@@ -1,5 +1,7 @@
 #include <luciole/error.hpp>
 
+#include <luciole/reference.hpp>
+
 #include "device.hpp"
 #include "image_difference.hpp"
 #include "render/shaders/types.shared.h"
@@ -146,6 +148,31 @@ TEST_CASE("renderer: a light that shines straight at the eye adds no NaN") {
     scene.lights = {directionalLight(vec3(0, 0, 1))};
     ValidatedRenderer renderer;
     CHECK(allFinite(renderer.render(scene, {frontOrthographicCamera(), {17, 17}}, {}).radiance));
+}
+
+TEST_CASE("renderer: no light is lost beyond the 65,535 rounds after which a driver leaves its loops") {
+    Scene scene;
+    const Material material = lambertMaterial(scene);
+    addObject(scene, quad(2), material);
+    constexpr uint32_t kCount = 70000;
+    scene.lights.assign(kCount, directionalLight(vec3(0, 0, -1), vec3(float(kPi) / kCount)));
+    ValidatedRenderer renderer;
+    const Frame frame = renderer.render(scene, {frontCamera(), {9, 9}}, {}, {"light-count", "id", "depth"});
+    CHECK(frame.radiance.at(4, 4, 0) == doctest::Approx(1).epsilon(1e-3));  // a rounding per light
+    CHECK(frame.aovs.at("light-count").at(4, 4, 0) == kCount);
+    CHECK(frame.aovs.at("id").at(4, 4, 0) == 0);
+    CHECK(frame.aovs.at("depth").at(4, 4, 0) == doctest::Approx(2));
+}
+
+TEST_CASE("renderer: a camera out of bounds is refused, and so by the reference") {
+    ValidatedRenderer renderer;
+    Camera far = frontCamera(), narrow = frontCamera();
+    far.worldFromView[3] = vec4(1e20f, 0, 0, 1);
+    narrow.yFov = 0;
+    for (const Camera& camera : {far, narrow}) {
+        CHECK_THROWS_AS(renderer->render({camera, {9, 9}}, {}), Error);
+        CHECK_THROWS_AS(renderReference({}, {camera, {9, 9}}, {}), Error);
+    }
 }
 
 TEST_CASE("renderer: more lights than a uniform block holds are all there") {

@@ -4,6 +4,7 @@
 #include "render/geometry/gbuffer_read.glsl"
 #include "render/shaders/illuminate.glsl"
 
+layout(push_constant, scalar) uniform Push { LightSlice slice; };
 layout(location = 0) out vec4 scalars;  // depth, material, object ID, light count
 layout(location = 1) out vec4 normal;   // world space
 layout(location = 2) out vec4 cs0;
@@ -21,10 +22,12 @@ bool reaches(LightConstants light, Surface s) {
 void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     uint count = 0u;
-    for (uint i = 0u; i < view.lightCount; ++i) count += uint(reaches(lightAt(i), s));
+    for (uint i = 0u; i < slice.count; ++i) count += uint(reaches(lightAt(slice.first + i), s));
+    // Later slices are added to the first: they bring their lights only.
+    const float once = slice.first == 0u ? 1.0 : 0.0;
     // materials[0] stands for "no surface", so the scene's indices are one lower.
-    scalars = vec4(-s.P.z, float(s.material) - 1.0, float(s.objectId), float(count));
-    normal = vec4(mat3(view.worldFromView) * s.N, 0);
-    cs0 = vec4(s.Cs0, 0);
-    cs1 = vec4(s.Cs1, 0);
+    scalars = vec4(once * vec3(-s.P.z, float(s.material) - 1.0, float(s.objectId)), float(count));
+    normal = vec4(once * (mat3(view.worldFromView) * s.N), 0);
+    cs0 = vec4(once * s.Cs0, 0);
+    cs1 = vec4(once * s.Cs1, 0);
 }

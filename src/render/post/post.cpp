@@ -42,10 +42,18 @@ std::array<frame::ImageId, 4> addAovs(frame::FrameGraph& graph, const LightingIn
         const auto empty = i == 0 ? vk::ClearColorValue(0.0f, -1.0f, -1.0f, 0.0f) : vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f);
         pass.clear(images[i], Access::colorWrite, empty);
     }
-    pass.record([constants = in.constants](frame::PassContext& context) {
-        context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/post/aov.frag", .constants = constants});
+    pass.record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
         context.depth(vk::CompareOp::eLess, false);
-        context.drawFullScreen();
+        uint32_t first = 0;
+        do {
+            context.bind({.vertex = "render/shaders/full_screen.vert",
+                          .fragment = "render/post/aov.frag",
+                          .additive = first > 0,
+                          .constants = constants});
+            context.push(shared::LightSlice{first, std::min(shared::kLightsPerDraw, lightCount - first)});
+            context.drawFullScreen();
+            first += shared::kLightsPerDraw;
+        } while (first < lightCount);
     });
     return images;
 }

@@ -101,6 +101,14 @@ struct LightConstants {
     uint linkGroup;     // row of the link table, or kNoIndex
 };
 
+// Lights that one draw may loop over. Mesa's software driver (22.3) leaves its loops after 65,535 rounds in all without a
+// word, and GPU drivers end work that runs too long.
+const uint kLightsPerDraw = 32768u;
+struct LightSlice {
+    uint first;
+    uint count;
+};
+
 // The table of functions of one variable. Odd, so that 0 of [-1, 1] is a sample.
 const uint kFunctionSamples = 4097u;
 
