@@ -42,6 +42,8 @@ struct PassStats {
     std::optional<double> ms;  ///< GPU time, only with RenderSettings::measure: without a full barrier after each
                                ///< timestamp, per-pass times were seen to be wrong by any factor
     uint64_t bytes = 0;        ///< size of everything the pass declares to read and write
+    uint32_t draws = 0;        ///< draw calls recorded
+    uint32_t stencilDraws = 0; ///< those of them that only mark the stencil
 };
 
 struct FrameStats {
@@ -63,7 +65,11 @@ struct Frame {
 };
 
 /// Names of the additional layers: depth (metres along the view axis, 0 where nothing is), normal (world space),
-/// cs0, cs1, material and id (indices; -1 where nothing is), light-count (lights in range and cone).
+/// cs0, cs1, material and id (indices; -1 where nothing is), light-count (lights that reach the pixel's surface: in
+/// range, cone and volume, and linked to the object), and what the technique did, light by light, to find them:
+/// evaluations (lights that its shader evaluated at the pixel), useful-evaluations (those of them that reach the surface),
+/// light-fingerprint (a sum of one number per useful evaluation that depends on the light alone: equal fingerprints, equal
+/// lights; exact up to 4,096 of them).
 const std::vector<std::string>& aovNames();
 
 struct LightingTechniqueInfo {

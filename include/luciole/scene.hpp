@@ -165,13 +165,24 @@ struct Light {
     LightContribution contribution = LightContribution::diffuseAndSpecular;
     bool infiniteViewer = false;  ///< shaped equation, directional: I = (0, 0, 1) in view space instead of -P / |P|
     uint32_t linkGroup = kNone;   ///< index into Scene::linkGroups; kNone: the light touches every object
+    uint32_t volume = kNone;      ///< index into Scene::lightVolumes; kNone: range and cone alone bound the light
 };
 
-/// Which objects a light touches (Calver 2003, "More Control over Lighting"). Indexed by object ID; IDs beyond the
-/// end are not touched.
+/// A closed surface that bounds a light of any type, range and cone apart (Calver 2003, "Concave Light Volume"). Inside
+/// are the points about which the surface winds: whose winding number is not 0, whichever way it is oriented. Each edge is run
+/// through by its triangles as often one way as the other, counting vertices at equal positions as one.
+struct LightVolume {
+    std::string name;
+    std::vector<vec3> positionsWorld;  ///< metres
+    std::vector<uint32_t> indices;     ///< triangle list, 1 to kMaxVolumeTriangles triangles
+};
+
+/// Which objects a light touches, and which cast shadows in it (Calver 2003, "More Control over Lighting"). Indexed by
+/// object ID; IDs beyond the end are not touched and cast no shadow.
 struct LinkGroup {
     std::string name;
     std::vector<bool> litObjects;
+    std::vector<bool> castingObjects;
 };
 
 /// The light that initialises the light buffer: `sky` from above, `ground` from below, blended by 0.5 + 0.5 N.up
@@ -196,6 +207,7 @@ inline constexpr uint32_t kMaxObjectId = 65535;    ///< object IDs are stored in
 inline constexpr uint32_t kMaxMaterials = 65535;   ///< material index 0 of the G-buffer means "no surface"
 inline constexpr uint32_t kMaxLinkGroups = 4096;
 inline constexpr uint32_t kMaxFunctions = 1024;
+inline constexpr uint32_t kMaxVolumeTriangles = 16384;  ///< of one light volume
 
 struct Scene {
     std::string name;
@@ -207,6 +219,7 @@ struct Scene {
     std::vector<Function> functions;
     std::vector<Light> lights;
     std::vector<LinkGroup> linkGroups;
+    std::vector<LightVolume> lightVolumes;
     std::vector<Camera> cameras;
     Ambience ambience;
     float exposureEv = 0;  ///< stops; the picture is radiance * 2^exposureEv before tone mapping

@@ -9,7 +9,8 @@
 namespace luciole {
 
 const std::vector<std::string>& aovNames() {
-    static const std::vector<std::string> names{"depth", "normal", "cs0", "cs1", "material", "id", "light-count"};
+    static const std::vector<std::string> names{"depth", "normal", "cs0", "cs1", "material", "id", "light-count",
+                                                "evaluations", "useful-evaluations", "light-fingerprint"};
     return names;
 }
 
