@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -6,7 +7,8 @@
 
 #include <luciole/image.hpp>
 
-/// Files appear whole or not at all: written beside the target, synced, renamed.
+/// Pictures as files, and pictures of counts. Files appear whole or not at all: written beside the target, synced,
+/// renamed.
 namespace luciole {
 
 /// \throws Error(io) naming the file and the system's reason; nothing is left behind
@@ -17,10 +19,31 @@ void writePng(const std::filesystem::path& file, const Image& image, int bits = 
 
 enum class ExrType { half, float32 };
 /// \param layers layer "" holds R, G, B; layer NAME holds NAME.R, NAME.G, NAME.B or NAME.Y by channel count.
-///        Layers named depth, material, id and light-count are always written as 32-bit float. All of one size
-void writeExr(const std::filesystem::path& file, const std::map<std::string, Image>& layers, ExrType type = ExrType::half);
+///        All of one size. Layers of distances, indices and counts (depth, material, id, light-count, evaluations,
+///        useful-evaluations, light-fingerprint) are always written as 32-bit float
+void writeExr(const std::filesystem::path& file, const std::map<std::string, Image>& layers,
+              ExrType type = ExrType::half);
 
 Image readPng(const std::filesystem::path& file);                         ///< [0, 1], 3 or 4 channels
 std::map<std::string, Image> readExr(const std::filesystem::path& file);  ///< as writeExr takes them
+
+/// How much work a technique did for one picture, and how much of it was of use.
+struct OverlapCounts {
+    uint64_t evaluations = 0;        ///< pairs of a pixel and a light that was evaluated there
+    uint64_t usefulEvaluations = 0;  ///< those of them whose light reaches the pixel's surface
+    uint64_t coveredPixels = 0;      ///< pixels at which at least one light was evaluated
+};
+
+/// \param evaluations, useful the layers of these names (see aovNames): whole numbers >= 0, 1 channel, one size
+/// \throws Error(usage) for other shapes
+OverlapCounts countOverlap(const Image& evaluations, const Image& useful);
+
+/// Both layers as heat maps side by side, for people: full resolution, one colour scale from 0 to the largest count,
+/// and below it a legend with the largest count, and the mean over the covered pixels, of each. A pixel at which no
+/// light was evaluated is dark grey in both. The left map begins at (0, 0), the right one at ((width + kOverlapGap) /
+/// 2, 0). \return sRGB-encoded, [0, 1], 3 channels; larger than both maps where they are too narrow for the legend
+/// \throws as countOverlap
+Image overlapHeatMap(const Image& evaluations, const Image& useful);
+inline constexpr uint32_t kOverlapGap = 4;  ///< pixels between the maps
 
 }  // namespace luciole

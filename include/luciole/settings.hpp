@@ -17,6 +17,7 @@ struct RenderSettings {
     GBufferLayout gbuffer = GBufferLayout::compact;
     LightBufferFormat lightBuffer = LightBufferFormat::rgba32f;
     bool depthPrepass = false;
+    bool cullLights = true;
     float exposureEv = 0;  ///< added to Scene::exposureEv
     ToneMap toneMap = ToneMap::aces;
     bool measure = false;

@@ -22,10 +22,17 @@ const AccessInfo kTable[] = {
      Layout::eDepthAttachmentOptimal, ImageUse::eDepthStencilAttachment, {}, true},
     {"depth test", kDepthStages, Mask::eDepthStencilAttachmentRead, Layout::eDepthReadOnlyOptimal,
      ImageUse::eDepthStencilAttachment, {}, false},
+    {"stencil write", kDepthStages, Mask::eDepthStencilAttachmentRead | Mask::eDepthStencilAttachmentWrite,
+     Layout::eDepthReadOnlyStencilAttachmentOptimal, ImageUse::eDepthStencilAttachment, {}, true},
     {"fragment sampled", Stage::eFragmentShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled,
      {}, false},
     {"fragment storage read", kDrawStages, Mask::eShaderStorageRead, Layout::eGeneral, ImageUse::eStorage,
      BufferUse::eStorageBuffer, false},
+    {"table read", kDrawStages, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eUndefined, {},
+     BufferUse::eStorageBuffer | BufferUse::eUniformBuffer, false},
+    {"compute table read", Stage::eComputeShader, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eUndefined, {},
+     BufferUse::eStorageBuffer | BufferUse::eUniformBuffer, false},
+    {"indirect read", Stage::eDrawIndirect, Mask::eIndirectCommandRead, Layout::eUndefined, {}, BufferUse::eIndirectBuffer, false},
     {"compute sampled", Stage::eComputeShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled,
      {}, false},
     {"compute storage read", Stage::eComputeShader, Mask::eShaderStorageRead, Layout::eGeneral, ImageUse::eStorage,
@@ -44,13 +51,20 @@ static_assert(std::size(kTable) == size_t(Access::hostRead) + 1);
 
 const AccessInfo& infoOf(Access access) { return kTable[size_t(access)]; }
 
+bool isDepthAttachment(Access access) {
+    return access == Access::depthWrite || access == Access::depthTest || access == Access::stencilWrite;
+}
+
 bool isAttachment(Access access) {
-    return access == Access::colorWrite || access == Access::colorBlend || access == Access::depthWrite ||
-           access == Access::depthTest;
+    return access == Access::colorWrite || access == Access::colorBlend || isDepthAttachment(access);
 }
 
 vk::ImageLayout layoutOf(Access access, vk::Format format) {
     const bool sampled = access == Access::fragmentSampled || access == Access::computeSampled;
+    if (format == vk::Format::eD32SfloatS8Uint) {
+        if (access == Access::depthWrite) return Layout::eDepthStencilAttachmentOptimal;
+        if (sampled || isDepthAttachment(access)) return Layout::eDepthReadOnlyStencilAttachmentOptimal;
+    }
     return sampled && format == vk::Format::eD32Sfloat ? Layout::eDepthReadOnlyOptimal : infoOf(access).layout;
 }
 

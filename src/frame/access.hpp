@@ -9,8 +9,12 @@ enum class Access : uint8_t {
     colorBlend,           ///< colour attachment, blended over what is there
     depthWrite,           ///< depth attachment, tested and written
     depthTest,            ///< depth attachment, tested only
+    stencilWrite,         ///< depth attachment, tested only, whose stencil is tested and written
     fragmentSampled,      ///< texture in fragment shaders; also of a depth image that is tested in the same pass
     fragmentStorageRead,  ///< storage buffer in vertex and fragment shaders
+    tableRead,            ///< table of the frame's set, uniform or storage buffer, in vertex and fragment shaders
+    computeTableRead,     ///< the same in compute shaders
+    indirectRead,         ///< arguments of a draw
     computeSampled,
     computeStorageRead,
     computeStorageWrite,  ///< written (and perhaps read) by compute
@@ -32,7 +36,11 @@ const AccessInfo& infoOf(Access access);
 
 bool isAttachment(Access access);
 
-/// The layout of an image of `format` under `access`: sampled depth stays in the layout that allows testing, too.
+/// Attaches an image's depth, and its stencil if it has one.
+bool isDepthAttachment(Access access);
+
+/// The layout of an image of `format` under `access`: sampled depth stays in the layout that allows testing, too, and a
+/// depth image with a stencil has one layout for all that leaves its depth as it is.
 vk::ImageLayout layoutOf(Access access, vk::Format format);
 
 /// The part of an access mask that writes.

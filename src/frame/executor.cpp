@@ -36,6 +36,8 @@ void Executor::createResources() {
         if (resource.isImage())
             images_.emplace(r, gpu::makeImage(context_, resource.name,
                                               {.format = resource.image.format, .extent = resource.image.extent, .usage = imageUsage}));
+        else if (resource.imported)
+            continue;
         else if (graph_.isOutput(r))
             hostBuffers_.emplace(r, gpu::MappedBuffer(context_, resource.name, resource.bufferBytes, bufferUsage, gpu::Residence::hostCached));
         else
@@ -44,6 +46,7 @@ void Executor::createResources() {
 }
 
 vk::Buffer Executor::bufferHandle(uint32_t resource) const {
+    if (const vk::Buffer imported = graph_.resources()[resource].imported) return imported;
     const auto host = hostBuffers_.find(resource);
     return host != hostBuffers_.end() ? host->second.handle() : *buffers_.at(resource).handle;
 }
@@ -51,21 +54,32 @@ vk::Buffer Executor::bufferHandle(uint32_t resource) const {
 void Executor::createPassSets() {
     const auto passes = uint32_t(compiled_.passes.size());
     if (passes == 0) return;
-    const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, passes * shared::kPassSampledCount};
-    pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = passes, .poolSizeCount = 1, .pPoolSizes = &size});
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, passes * shared::kPassSampledCount},
+                                            {vk::DescriptorType::eStorageBuffer, passes * shared::kPassStorageCount}};
+    pool_ = vk::raii::DescriptorPool(
+        context_.device(), {.maxSets = passes, .poolSizeCount = uint32_t(std::size(sizes)), .pPoolSizes = sizes});
     passSets_ = gpu::allocateSets(context_, pool_, pipelines_.passSetLayout(), passes);
     for (uint32_t i = 0; i < passes; ++i)
         for (const Use& use : graph_.passes()[compiled_.passes[i].pass].uses) {
             if (use.binding == kNoBinding) continue;
-            const vk::DescriptorImageInfo image{.imageView = *images_.at(use.resource).view,
-                                                .imageLayout = layoutOf(use.access, graph_.resources()[use.resource].image.format)};
-            context_.device().updateDescriptorSets(
-                vk::WriteDescriptorSet{.dstSet = passSets_[i],
-                                       .dstBinding = shared::kPassSampled + use.binding,
-                                       .descriptorCount = 1,
-                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                       .pImageInfo = &image},
-                nullptr);
+            const Resource& resource = graph_.resources()[use.resource];
+            vk::WriteDescriptorSet write{.dstSet = passSets_[i], .descriptorCount = 1};
+            vk::DescriptorImageInfo image;
+            vk::DescriptorBufferInfo buffer;
+            if (resource.isImage()) {
+                const gpu::Image& source = images_.at(use.resource);
+                image = {.imageView = gpu::hasStencil(source.format) ? *source.depthView : *source.view,
+                         .imageLayout = layoutOf(use.access, source.format)};
+                write.setDstBinding(shared::kPassSampled + use.binding)
+                    .setDescriptorType(vk::DescriptorType::eCombinedImageSampler)
+                    .setPImageInfo(&image);
+            } else {
+                buffer.setBuffer(bufferHandle(use.resource)).setRange(VK_WHOLE_SIZE);
+                write.setDstBinding(shared::kPassStorage + use.binding)
+                    .setDescriptorType(vk::DescriptorType::eStorageBuffer)
+                    .setPBufferInfo(&buffer);
+            }
+            context_.device().updateDescriptorSets(write, nullptr);
         }
 }
 
@@ -114,7 +128,7 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     const Pass& pass = graph_.passes()[compiled_.passes[index].pass];
     std::vector<vk::RenderingAttachmentInfo> colors;
     std::vector<vk::Format> colorFormats;
-    vk::RenderingAttachmentInfo depth;
+    vk::RenderingAttachmentInfo depth, stencil;
     vk::Format depthFormat = vk::Format::eUndefined;
     vk::Extent2D extent;
     for (const Use& use : pass.uses) {
@@ -125,11 +139,13 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
             .imageView = *images_.at(use.resource).view,
             .imageLayout = layoutOf(use.access, resource.image.format),
             .loadOp = use.clear ? vk::AttachmentLoadOp::eClear : use.overwrites ? vk::AttachmentLoadOp::eDontCare : vk::AttachmentLoadOp::eLoad,
-            .storeOp = use.access == Access::depthTest ? vk::AttachmentStoreOp::eNone : vk::AttachmentStoreOp::eStore,
+            .storeOp = infoOf(use.access).writes ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eNone,
             .clearValue = use.clear.value_or(vk::ClearValue{})};
-        if (use.access == Access::depthWrite || use.access == Access::depthTest) {
+        if (isDepthAttachment(use.access)) {
             depth = attachment;
             depthFormat = resource.image.format;
+            if (gpu::hasStencil(depthFormat)) stencil = attachment;
+            if (use.access == Access::stencilWrite) depth.storeOp = vk::AttachmentStoreOp::eNone;
         } else {
             colors.push_back(attachment);
             colorFormats.push_back(resource.image.format);
@@ -137,13 +153,15 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     }
     const bool renders = extent.width != 0;
     PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, extent);
+    commands.bindDescriptorSets(renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute, pipelines_.layout(), 0,
+                                {frameSet, passSets_[index]}, nullptr);
     if (renders) {
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0, {frameSet, passSets_[index]}, nullptr);
         commands.beginRendering({.renderArea = {{0, 0}, extent},
                                  .layerCount = 1,
                                  .colorAttachmentCount = uint32_t(colors.size()),
                                  .pColorAttachments = colors.data(),
-                                 .pDepthAttachment = depth.imageView ? &depth : nullptr});
+                                 .pDepthAttachment = depth.imageView ? &depth : nullptr,
+                                 .pStencilAttachment = stencil.imageView ? &stencil : nullptr});
         commands.setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
         commands.setScissor(0, vk::Rect2D{{0, 0}, extent});
         commands.setCullMode(vk::CullModeFlagBits::eNone);
@@ -151,14 +169,21 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
         commands.setDepthTestEnable(false);
         commands.setDepthWriteEnable(false);
         commands.setDepthCompareOp(vk::CompareOp::eAlways);
+        commands.setStencilTestEnable(false);
+        context.stencil(vk::StencilFaceFlagBits::eFrontAndBack, {});
+        commands.setStencilCompareMask(vk::StencilFaceFlagBits::eFrontAndBack, 0xff);
+        commands.setStencilWriteMask(vk::StencilFaceFlagBits::eFrontAndBack, 0xff);
+        commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
     }
     if (pass.record) pass.record(context);
     if (renders) commands.endRendering();
+    drawCounts_.push_back(context.counts());
 }
 
 void Executor::record(vk::DescriptorSet frameSet, bool measure) {
     const auto& commands = commandBuffers_.front();
     const auto passes = uint32_t(compiled_.passes.size());
+    drawCounts_.clear();
     commands.reset();  // an exception in the last frame may have left it half recorded
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (measure) {
@@ -195,6 +220,10 @@ std::vector<PassStats> Executor::stats() const {
     for (uint32_t i = 0; i < compiled_.passes.size(); ++i) {
         const Pass& pass = graph_.passes()[compiled_.passes[i].pass];
         PassStats row{.name = pass.name};
+        if (i < drawCounts_.size()) {
+            row.draws = drawCounts_[i].draws;
+            row.stencilDraws = drawCounts_[i].stencilDraws;
+        }
         if (!passMs_.empty()) row.ms = passMs_[i];
         std::set<uint32_t> touched;
         for (const Use& use : pass.uses)

@@ -7,6 +7,12 @@
 
 namespace luciole::frame {
 
+/// What a pass recorded.
+struct DrawCounts {
+    uint32_t draws = 0;
+    uint32_t stencilDraws = 0;  ///< those that leave colour as it is, in a pass that has colour
+};
+
 /// A compiled graph with its device resources: made once, run as often as wanted.
 class Executor {
 public:
@@ -47,7 +53,8 @@ private:
     std::vector<vk::DescriptorSet> passSets_;  // freed with their pool
     vk::raii::QueryPool queries_ = nullptr;
     vk::raii::CommandBuffers commandBuffers_ = nullptr;
-    std::vector<double> passMs_;  // empty until measured
+    std::vector<DrawCounts> drawCounts_;  // per compiled pass
+    std::vector<double> passMs_;          // empty until measured
 };
 
 }  // namespace luciole::frame

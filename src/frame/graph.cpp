@@ -100,12 +100,15 @@ PassBuilder& PassBuilder::use(const Use& use, bool isImage, bool writes) {
         misuse(pass, target, fmt::format("{} declared as a {}", info.name, writes ? "write" : "read"));
     if (target.isImage() != isImage || (isImage ? !info.imageUsage : !info.bufferUsage))
         misuse(pass, target, fmt::format("{} is not for {}", info.name, isImage ? "images" : "buffers"));
-    const bool needsContent = use.access == Access::colorBlend || use.access == Access::depthWrite;
+    const bool needsContent = use.access == Access::colorBlend || use.access == Access::depthWrite || use.access == Access::stencilWrite;
     if (needsContent && use.overwrites && !use.clear)
         misuse(pass, target, fmt::format("{} needs what is there: update or clear it", info.name));
     const bool sampled = use.access == Access::fragmentSampled || use.access == Access::computeSampled;
-    if (sampled ? use.binding >= shared::kPassSampledCount : use.binding != kNoBinding)
-        misuse(pass, target, fmt::format("{}: expected {}", info.name, sampled ? "a slot for sampled images" : "no slot"));
+    const bool stored = !isImage && (use.access == Access::fragmentStorageRead || use.access == Access::computeStorageRead ||
+                                     use.access == Access::computeStorageWrite);
+    const uint32_t slots = sampled ? shared::kPassSampledCount : stored ? shared::kPassStorageCount : 0;
+    if (slots ? use.binding >= slots : use.binding != kNoBinding)
+        misuse(pass, target, fmt::format("{}: expected {}", info.name, slots ? fmt::format("a slot below {}", slots) : "no slot"));
     pass.uses.push_back(use);
     return *this;
 }
@@ -113,20 +116,20 @@ PassBuilder& PassBuilder::use(const Use& use, bool isImage, bool writes) {
 PassBuilder& PassBuilder::read(ImageId image, Access access, uint32_t binding) {
     return use({.resource = image.index, .access = access, .binding = binding}, true, false);
 }
-PassBuilder& PassBuilder::read(BufferId buffer, Access access) {
-    return use({.resource = buffer.index, .access = access}, false, false);
+PassBuilder& PassBuilder::read(BufferId buffer, Access access, uint32_t binding) {
+    return use({.resource = buffer.index, .access = access, .binding = binding}, false, false);
 }
 PassBuilder& PassBuilder::write(ImageId image, Access access) {
     return use({.resource = image.index, .access = access, .overwrites = true}, true, true);
 }
-PassBuilder& PassBuilder::write(BufferId buffer, Access access) {
-    return use({.resource = buffer.index, .access = access, .overwrites = true}, false, true);
+PassBuilder& PassBuilder::write(BufferId buffer, Access access, uint32_t binding) {
+    return use({.resource = buffer.index, .access = access, .binding = binding, .overwrites = true}, false, true);
 }
 PassBuilder& PassBuilder::update(ImageId image, Access access) {
     return use({.resource = image.index, .access = access}, true, true);
 }
-PassBuilder& PassBuilder::update(BufferId buffer, Access access) {
-    return use({.resource = buffer.index, .access = access}, false, true);
+PassBuilder& PassBuilder::update(BufferId buffer, Access access, uint32_t binding) {
+    return use({.resource = buffer.index, .access = access, .binding = binding}, false, true);
 }
 PassBuilder& PassBuilder::clear(ImageId image, Access access, vk::ClearValue value) {
     return use({.resource = image.index, .access = access, .overwrites = true, .clear = value}, true, true);
@@ -141,6 +144,12 @@ ImageId FrameGraph::createImage(std::string name, ImageDesc desc) {
 BufferId FrameGraph::createBuffer(std::string name, uint64_t bytes) {
     resources_.push_back({.name = std::move(name), .bufferBytes = std::max<uint64_t>(bytes, 1)});
     return {uint32_t(resources_.size() - 1)};
+}
+
+BufferId FrameGraph::importBuffer(std::string name, uint64_t bytes, vk::Buffer handle) {
+    const BufferId buffer = createBuffer(std::move(name), bytes);
+    resources_[buffer.index].imported = handle;
+    return buffer;
 }
 
 PassBuilder FrameGraph::addPass(std::string name) {

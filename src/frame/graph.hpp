@@ -25,18 +25,20 @@ struct ImageDesc {
     vk::Extent2D extent;
 };
 
-/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer.
+/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer. `imported`: somebody else's buffer.
 struct Resource {
     std::string name;
     ImageDesc image;
     uint64_t bufferBytes = 0;
+    vk::Buffer imported = {};
     bool isImage() const { return bufferBytes == 0; }
     uint64_t bytes() const;
 };
 
 inline constexpr uint32_t kNoBinding = ~0u;
 
-/// One access of one pass. `binding`: the slot in the pass's descriptor set (bindings.shared.h), if a shader samples it.
+/// One access of one pass. `binding`: the slot in the pass's descriptor set (bindings.shared.h), among the sampled images or
+/// among the storage buffers.
 struct Use {
     uint32_t resource;
     Access access;
@@ -57,13 +59,13 @@ class FrameGraph;
 class PassBuilder {
 public:
     PassBuilder& read(ImageId image, Access access, uint32_t binding = kNoBinding);
-    PassBuilder& read(BufferId buffer, Access access);
+    PassBuilder& read(BufferId buffer, Access access, uint32_t binding = kNoBinding);
     /// The pass makes all of the content; nothing before it survives.
     PassBuilder& write(ImageId image, Access access);
-    PassBuilder& write(BufferId buffer, Access access);
+    PassBuilder& write(BufferId buffer, Access access, uint32_t binding = kNoBinding);
     /// The pass adds to, or changes parts of, what is there.
     PassBuilder& update(ImageId image, Access access);
-    PassBuilder& update(BufferId buffer, Access access);
+    PassBuilder& update(BufferId buffer, Access access, uint32_t binding = kNoBinding);
     /// An attachment that starts at `value`.
     PassBuilder& clear(ImageId image, Access access, vk::ClearValue value);
     void record(std::function<void(PassContext&)> record);
@@ -99,6 +101,8 @@ class FrameGraph {
 public:
     ImageId createImage(std::string name, ImageDesc desc);
     BufferId createBuffer(std::string name, uint64_t bytes);
+    /// A buffer that the frame fills and that outlives it, such as one that the frame's set names.
+    BufferId importBuffer(std::string name, uint64_t bytes, vk::Buffer handle);
     PassBuilder addPass(std::string name);
 
     /// Marks a result that the host reads after the frame; passes that lead to no result are dropped.

@@ -16,7 +16,7 @@ public:
         : commands(commandBuffer), pipelines_(pipelines), executor_(executor), pass_(pass), colors_(std::move(colors)), depth_(depth),
           extent_(extent) {}
 
-    const vk::raii::CommandBuffer& commands;  ///< for whatever is not wrapped here
+    const vk::raii::CommandBuffer& commands;  ///< for whatever is not wrapped here; draws are, so that they are counted
     vk::Extent2D extent() const { return extent_; }  ///< of the attachments; zero without any
 
     /// Handles of what the pass declared. \throws std::logic_error for anything else
@@ -28,12 +28,14 @@ public:
         const char* fragment = "";
         bool meshVertices = false;
         bool additive = false;
+        bool depthClamp = false;
         std::vector<uint32_t> constants = {};
     };
     void bind(const Draw& draw) {
+        marksStencil_ = !colors_.empty() && *draw.fragment == 0;
         commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
                               pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices,
-                                              .additive = draw.additive, .constants = draw.constants, .colors = colors_, .depth = depth_}));
+                                              .additive = draw.additive, .depthClamp = draw.depthClamp, .constants = draw.constants, .colors = colors_, .depth = depth_}));
     }
     void bindSet(uint32_t set, vk::DescriptorSet handle) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), set, handle, nullptr);
@@ -44,6 +46,14 @@ public:
         commands.setDepthWriteEnable(write);
         commands.setDepthCompareOp(compare);
     }
+    struct Stencil {
+        vk::CompareOp compare = vk::CompareOp::eAlways;
+        vk::StencilOp fail = vk::StencilOp::eKeep, depthFail = vk::StencilOp::eKeep, pass = vk::StencilOp::eKeep;
+    };
+    /// Stencil state; the default of a pass is no test and no change.
+    void stencil(vk::StencilFaceFlags faces, const Stencil& state) {
+        commands.setStencilOp(faces, state.fail, state.pass, state.depthFail, state.compare);
+    }
     template <typename T>
     void push(const T& constants) {
         static_assert(sizeof(T) <= 128 && std::is_trivially_copyable_v<T>);
@@ -51,13 +61,39 @@ public:
                                   gpu::kStages,
                                   0, constants);
     }
+    void draw(uint32_t vertices, uint32_t instances = 1, uint32_t firstVertex = 0, uint32_t firstInstance = 0) {
+        count();
+        commands.draw(vertices, instances, firstVertex, firstInstance);
+    }
+    void drawIndexed(uint32_t indices, uint32_t instances, uint32_t firstIndex, int32_t firstVertex, uint32_t firstInstance) {
+        count();
+        commands.drawIndexed(indices, instances, firstIndex, firstVertex, firstInstance);
+    }
+    /// One VkDrawIndexedIndirectCommand at `offset` bytes.
+    void drawIndexedIndirect(BufferId arguments, vk::DeviceSize offset) {
+        count();
+        commands.drawIndexedIndirect(buffer(arguments), offset, 1, 0);
+    }
     /// One triangle that covers the target, for full_screen.vert.
-    void drawFullScreen() { commands.draw(3, 1, 0, 0); }
+    void drawFullScreen() { draw(3); }
+
+    /// One dispatch of `groups` workgroups along x. Only in a pass without attachments.
+    void dispatch(const char* shader, const std::vector<uint32_t>& constants, uint32_t groups) {
+        commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_.compute(shader, constants));
+        commands.dispatch(groups, 1, 1);
+    }
+
+    const DrawCounts& counts() const { return counts_; }
 
 private:
     void requireDeclared(uint32_t resource) const {
         if (std::ranges::find(pass_.uses, resource, &Use::resource) == pass_.uses.end())
             throw std::logic_error("frame graph: pass " + pass_.name + " uses a resource that it did not declare");
+    }
+
+    void count() {
+        ++counts_.draws;
+        counts_.stencilDraws += marksStencil_;
     }
 
     gpu::Pipelines& pipelines_;
@@ -66,6 +102,8 @@ private:
     std::vector<vk::Format> colors_;
     vk::Format depth_;
     vk::Extent2D extent_;
+    DrawCounts counts_;
+    bool marksStencil_ = false;
 };
 
 }  // namespace luciole::frame

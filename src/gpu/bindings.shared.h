@@ -12,10 +12,15 @@ const uint kFrameLights = 4u;
 const uint kFrameLinks = 5u;
 const uint kFrameFunctions = 6u;  // sampled image: the function table
 const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once more
+const uint kFrameSources = 8u;        // storage buffers from here: the lights in world space
+const uint kFrameVolumes = 9u;
+const uint kFrameVolumeVertices = 10u;
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names
 const uint kPassSampledCount = 8u;
+const uint kPassStorage = 8u;       // storage buffers, likewise
+const uint kPassStorageCount = 4u;
 
 const uint kMaterialSet = 2u;     // 5 sampled images
 const uint kMaterialTextures = 5u;

@@ -86,20 +86,25 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
                                            vk::PhysicalDeviceVulkan13Features>();
     const auto& v12 = chain.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& v13 = chain.get<vk::PhysicalDeviceVulkan13Features>();
+    if (!device.getFeatures().depthClamp) return "lacks the feature depthClamp";
     if (!v12.scalarBlockLayout) return "lacks the feature scalarBlockLayout";
     if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
     if (!v12.separateDepthStencilLayouts) return "lacks the feature separateDepthStencilLayouts";
     if (!v13.shaderTerminateInvocation) return "lacks the feature shaderTerminateInvocation";
     if (!v13.synchronization2) return "lacks the feature synchronization2";
     if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
-    if (properties.limits.maxPerStageDescriptorStorageBuffers < 5)
-        return fmt::format("expected 5 storage buffers a stage, found {}", properties.limits.maxPerStageDescriptorStorageBuffers);
+    // Those of bindings.shared.h; of 4, the least that Vulkan guarantees, no desktop driver is known.
+    if (properties.limits.maxPerStageDescriptorStorageBuffers < 12)
+        return fmt::format("expected 12 storage buffers a stage, found {}", properties.limits.maxPerStageDescriptorStorageBuffers);
     if (properties.limits.maxImageDimension2D < 8192)
         return fmt::format("expected images of 8192 texels, found {}", properties.limits.maxImageDimension2D);
     const auto blendable = vk::FormatFeatureFlagBits::eColorAttachmentBlend;
     for (const auto format : {vk::Format::eR32G32B32A32Sfloat, vk::Format::eR16G16B16A16Sfloat})
         if (!(device.getFormatProperties(format).optimalTilingFeatures & blendable))
             return fmt::format("can't blend into {}", vk::to_string(format));
+    if (!(device.getFormatProperties(vk::Format::eD32SfloatS8Uint).optimalTilingFeatures &
+          vk::FormatFeatureFlagBits::eDepthStencilAttachment))
+        return "can't render into D32SfloatS8Uint";
     const auto color = vk::FormatFeatureFlagBits::eColorAttachment;
     for (const auto format : {vk::Format::eR16G16B16A16Unorm, vk::Format::eR16Unorm})
         if (!(device.getFormatProperties(format).optimalTilingFeatures & color))
@@ -163,7 +168,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     vk::PhysicalDeviceVulkan13Features v13{
         .shaderTerminateInvocation = true, .synchronization2 = true, .dynamicRendering = true};
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .separateDepthStencilLayouts = true};
-    const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = physical.getFeatures().fullDrawIndexUint32};
+    const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = physical.getFeatures().fullDrawIndexUint32, .depthClamp = true};
     const vk::DeviceCreateInfo info{
         .pNext = &v12, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue, .pEnabledFeatures = &features};
     return vk::raii::Device(physical, info);

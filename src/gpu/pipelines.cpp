@@ -3,6 +3,7 @@
 #include <luciole/scene.hpp>
 
 #include "gpu/bindings.shared.h"
+#include "gpu/resources.hpp"
 
 namespace luciole::gpu {
 namespace {
@@ -25,10 +26,12 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     add(frame, kFrameObjects, kFrameFunctions - kFrameObjects, Type::eStorageBuffer);
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
     add(frame, kFrameUniformLights, 1, Type::eUniformBuffer);
+    add(frame, kFrameSources, kFrameVolumeVertices - kFrameSources + 1, Type::eStorageBuffer);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
     // every slot and would follow a null pointer.
     for (auto& binding : pass) binding.pImmutableSamplers = &texelSampler;
+    add(pass, kPassStorage, kPassStorageCount, Type::eStorageBuffer);
     add(material, 0, kMaterialTextures, Type::eCombinedImageSampler);
     std::vector<vk::raii::DescriptorSetLayout> layouts;
     for (const auto* bindings : {&frame, &pass, &material}) layouts.push_back(makeLayout(context, *bindings));
@@ -96,6 +99,24 @@ vk::Pipeline Pipelines::get(const PipelineKey& key) {
     return *found->second;
 }
 
+vk::Pipeline Pipelines::compute(const std::string& shader, const std::vector<uint32_t>& constants) {
+    const auto key = std::pair(shader, constants);
+    auto found = computePipelines_.find(key);
+    if (found == computePipelines_.end()) {
+        const Specialization specialization(constants);
+        const vk::raii::ShaderModule code = module(shader);
+        vk::raii::Pipeline pipeline(context_.device(), nullptr,
+                                    vk::ComputePipelineCreateInfo{.stage = {.stage = vk::ShaderStageFlagBits::eCompute,
+                                                                            .module = *code,
+                                                                            .pName = "main",
+                                                                            .pSpecializationInfo = &specialization.info},
+                                                                  .layout = *layout_});
+        found = computePipelines_.emplace(key, std::move(pipeline)).first;
+        context_.name(*found->second, shader);
+    }
+    return *found->second;
+}
+
 vk::raii::ShaderModule Pipelines::module(const std::string& name) const {
     const auto code = shaders_(name);
     return {context_.device(), {.codeSize = code.size_bytes(), .pCode = code.data()}};
@@ -121,7 +142,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
                     .pVertexAttributeDescriptions = kMeshAttributes};
     const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
-    const vk::PipelineRasterizationStateCreateInfo rasterization{.polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};
+    const vk::PipelineRasterizationStateCreateInfo rasterization{
+        .depthClampEnable = key.depthClamp, .polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
     const vk::PipelineDepthStencilStateCreateInfo depth{};
     using Channel = vk::ColorComponentFlagBits;
@@ -133,17 +155,20 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
         .srcAlphaBlendFactor = vk::BlendFactor::eOne,
         .dstAlphaBlendFactor = vk::BlendFactor::eOne,
         .alphaBlendOp = vk::BlendOp::eAdd,
-        .colorWriteMask = Channel::eR | Channel::eG | Channel::eB | Channel::eA};
+        .colorWriteMask = key.fragment.empty() ? vk::ColorComponentFlags() : Channel::eR | Channel::eG | Channel::eB | Channel::eA};
     const std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blend);
     const vk::PipelineColorBlendStateCreateInfo blending{.attachmentCount = uint32_t(blends.size()), .pAttachments = blends.data()};
     const vk::DynamicState dynamics[] = {vk::DynamicState::eViewport,        vk::DynamicState::eScissor,
                                          vk::DynamicState::eCullMode,        vk::DynamicState::eFrontFace,
                                          vk::DynamicState::eDepthTestEnable, vk::DynamicState::eDepthWriteEnable,
-                                         vk::DynamicState::eDepthCompareOp};
+                                         vk::DynamicState::eDepthCompareOp,  vk::DynamicState::eStencilTestEnable,
+                                         vk::DynamicState::eStencilOp,       vk::DynamicState::eStencilCompareMask,
+                                         vk::DynamicState::eStencilWriteMask, vk::DynamicState::eStencilReference};
     const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = uint32_t(std::size(dynamics)), .pDynamicStates = dynamics};
     const vk::PipelineRenderingCreateInfo formats{.colorAttachmentCount = uint32_t(key.colors.size()),
                                                   .pColorAttachmentFormats = key.colors.data(),
-                                                  .depthAttachmentFormat = key.depth};
+                                                  .depthAttachmentFormat = key.depth,
+                                                  .stencilAttachmentFormat = hasStencil(key.depth) ? key.depth : vk::Format::eUndefined};
     return {context_.device(), nullptr,
             vk::GraphicsPipelineCreateInfo{.pNext = &formats,
                                            .stageCount = uint32_t(stages.size()),

@@ -12,12 +12,13 @@ namespace luciole::gpu {
 /// Finds SPIR-V by name; made by luciole_shaders (cmake/shaders.cmake).
 using ShaderLibrary = std::span<const uint32_t> (*)(std::string_view name);
 
-/// What tells one pipeline from another. Cull mode, front face and depth state are dynamic and not in here.
+/// What tells one pipeline from another. Cull mode, front face, depth and stencil state are dynamic and not in here.
 struct PipelineKey {
     std::string vertex;
-    std::string fragment;               ///< may be empty for a depth-only pass
+    std::string fragment;               ///< empty: nothing is written to colour attachments
     bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
     bool additive = false;              ///< colour = source + destination
+    bool depthClamp = false;            ///< depth is clamped to [0, 1] where it would be clipped
     std::vector<uint32_t> constants;    ///< specialization constants 0, 1, ...
     std::vector<vk::Format> colors;
     vk::Format depth = vk::Format::eUndefined;
@@ -25,7 +26,8 @@ struct PipelineKey {
 };
 
 /// Stages that see descriptors and push constants.
-inline constexpr vk::ShaderStageFlags kStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
+inline constexpr vk::ShaderStageFlags kStages =
+    vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment | vk::ShaderStageFlagBits::eCompute;
 
 /// `count` sets of one layout, freed with their pool.
 std::vector<vk::DescriptorSet> allocateSets(const Context& context, const vk::raii::DescriptorPool& pool,
@@ -40,6 +42,7 @@ class Pipelines {
 public:
     Pipelines(const Context& context, ShaderLibrary shaders);
     vk::Pipeline get(const PipelineKey& key);
+    vk::Pipeline compute(const std::string& shader, const std::vector<uint32_t>& constants);
     vk::PipelineLayout layout() const { return *layout_; }
     vk::DescriptorSetLayout frameSetLayout() const { return *setLayouts_[0]; }
     vk::DescriptorSetLayout passSetLayout() const { return *setLayouts_[1]; }
@@ -55,6 +58,7 @@ private:
     std::vector<vk::raii::DescriptorSetLayout> setLayouts_;
     vk::raii::PipelineLayout layout_ = nullptr;
     std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+    std::map<std::pair<std::string, std::vector<uint32_t>>, vk::raii::Pipeline> computePipelines_;
 };
 
 }  // namespace luciole::gpu

@@ -41,7 +41,10 @@ Buffer makeBuffer(const Context& context, const std::string& name, uint64_t byte
     return buffer;
 }
 
+bool hasStencil(vk::Format format) { return format == vk::Format::eD32SfloatS8Uint; }
+
 vk::ImageAspectFlags aspectOf(vk::Format format) {
+    if (hasStencil(format)) return vk::ImageAspectFlagBits::eDepth | vk::ImageAspectFlagBits::eStencil;
     return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth : vk::ImageAspectFlagBits::eColor;
 }
 
@@ -53,6 +56,7 @@ uint32_t bytesPerTexel(vk::Format format) {
         case vk::Format::eR8G8B8A8Srgb: return 4;
         case vk::Format::eR16G16B16A16Unorm:
         case vk::Format::eR16G16B16A16Sfloat:
+        case vk::Format::eD32SfloatS8Uint:  // as devices align it
         case vk::Format::eR32G32Sfloat: return 8;
         case vk::Format::eR32G32B32A32Sfloat: return 16;
         default: throw std::logic_error(fmt::format("bytesPerTexel: {} is not in the table", vk::to_string(format)));
@@ -85,11 +89,14 @@ Image makeImage(const Context& context, const std::string& name, const ImageRequ
         throw Error(ErrorKind::limit, fmt::format("{}: expected an image that {} can hold, got {} x {} texels, {} bytes", name,
                                                   context.info().name, request.extent.width, request.extent.height, requirements.size));
     }
-    image.view = vk::raii::ImageView(
-        context.device(), {.image = *image.handle,
-                           .viewType = vk::ImageViewType::e2D,
-                           .format = request.format,
-                           .subresourceRange = {aspectOf(request.format), 0, request.mipLevels, 0, 1}});
+    const auto viewOf = [&](vk::ImageAspectFlags aspects) {
+        return vk::raii::ImageView(context.device(), {.image = *image.handle,
+                                                      .viewType = vk::ImageViewType::e2D,
+                                                      .format = request.format,
+                                                      .subresourceRange = {aspects, 0, request.mipLevels, 0, 1}});
+    };
+    image.view = viewOf(aspectOf(request.format));
+    if (hasStencil(request.format)) image.depthView = viewOf(vk::ImageAspectFlagBits::eDepth);
     context.name(*image.handle, name);
     context.name(*image.view, name);
     return image;

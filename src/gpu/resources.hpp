@@ -15,11 +15,12 @@ struct Buffer {
     uint64_t bytes = 0;
 };
 
-/// An image with its memory and a view of all of it.
+/// An image with its memory and a view of all of it. What has a stencil, has one more view of its depth alone, to sample.
 struct Image {
     vk::raii::Image handle = nullptr;
     Context::Allocation memory;
     vk::raii::ImageView view = nullptr;
+    vk::raii::ImageView depthView = nullptr;
     vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     uint32_t mipLevels = 1;
@@ -42,6 +43,7 @@ struct ImageRequest {
 };
 Image makeImage(const Context& context, const std::string& name, const ImageRequest& request);
 
+bool hasStencil(vk::Format format);
 vk::ImageAspectFlags aspectOf(vk::Format format);
 uint32_t bytesPerTexel(vk::Format format);
 

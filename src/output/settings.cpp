@@ -105,6 +105,7 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::gbuffer, kGBufferNames>("gbuffer", "what the geometry phase stores per pixel, and how"),
         choice<&RenderSettings::lightBuffer, kLightBufferNames>("light-buffer", "format that the lights are summed in"),
         onOff<&RenderSettings::depthPrepass>("depth-prepass", "draw depth alone first, so each pixel is shaded once"),
+        onOff<&RenderSettings::cullLights>("cull-lights", "leave out lights whose shape covers no pixel; off to measure what that saves"),
         number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),
         choice<&RenderSettings::toneMap, kToneMapNames>("tonemap", "how radiance becomes a picture"),
         onOff<&RenderSettings::measure>("measure", "time each pass on its own; the frame as a whole gets slower"),

@@ -4,7 +4,8 @@
 #include <cmath>
 
 namespace luciole::reference {
-LightSource::LightSource(const Scene& scene, const FunctionTables& tables, const Light& light)
+LightSource::LightSource(const Scene& scene, const FunctionTables& tables, const std::vector<Volume>& volumes,
+                         const Light& light)
     : type_(light.type),
       contribution_(light.contribution),
       infiniteViewer_(light.infiniteViewer && light.type == LightType::directional),
@@ -17,9 +18,16 @@ LightSource::LightSource(const Scene& scene, const FunctionTables& tables, const
       cosOuter_(std::cos(double(light.outerConeAngle))),
       attenuation_(light.attenuation == kNone ? nullptr : &tables.ofDistance(light.attenuation)),
       falloff_(light.falloff == kNone ? nullptr : &tables.ofCosine(light.falloff)),
-      litObjects_(light.linkGroup == kNone ? nullptr : &scene.linkGroups[light.linkGroup].litObjects) {}
+      litObjects_(light.linkGroup == kNone ? nullptr : &scene.linkGroups[light.linkGroup].litObjects),
+      volume_(light.volume == kNone ? nullptr : &volumes[light.volume]) {}
 
 std::optional<Arrival> LightSource::arrivalAt(dvec3 positionWorld) const {
+    const auto arrival = unboundedArrivalAt(positionWorld);
+    // Last, as it costs most.
+    return arrival && volume_ && !volume_->contains(positionWorld) ? std::nullopt : arrival;
+}
+
+std::optional<Arrival> LightSource::unboundedArrivalAt(dvec3 positionWorld) const {
     if (type_ == LightType::directional) return Arrival{-direction_, color_};
     const dvec3 toLight = position_ - positionWorld;
     const double distanceSquared = dot(toLight, toLight);
@@ -51,10 +59,11 @@ double LightSource::falloff(double cosine) const {
     return edge * edge;
 }
 
-std::vector<LightSource> lightSources(const Scene& scene, const FunctionTables& tables) {
+std::vector<LightSource> lightSources(const Scene& scene, const FunctionTables& tables,
+                                      const std::vector<Volume>& volumes) {
     std::vector<LightSource> result;
     result.reserve(scene.lights.size());
-    for (const Light& light : scene.lights) result.emplace_back(scene, tables, light);
+    for (const Light& light : scene.lights) result.emplace_back(scene, tables, volumes, light);
     return result;
 }
 

@@ -6,16 +6,17 @@
 
 #include "reference/function_table.hpp"
 #include "reference/light_model.hpp"
+#include "reference/volume.hpp"
 
 namespace luciole::reference {
 
 /// A light, made ready for many points.
 class LightSource {
 public:
-    /// \param scene, tables must outlive this object
-    LightSource(const Scene& scene, const FunctionTables& tables, const Light& light);
+    /// \param scene, tables, volumes must outlive this object
+    LightSource(const Scene& scene, const FunctionTables& tables, const std::vector<Volume>& volumes, const Light& light);
 
-    /// What arrives at a point in range and in the cone; nothing elsewhere. Links are not looked at.
+    /// What arrives at a point in range, in the cone and in the volume; nothing elsewhere. Links are not looked at.
     std::optional<Arrival> arrivalAt(dvec3 positionWorld) const;
 
     bool touches(uint32_t objectId) const;
@@ -23,6 +24,8 @@ public:
     bool infiniteViewer() const { return infiniteViewer_; }
 
 private:
+    /// As `arrivalAt`, whatever the volume.
+    std::optional<Arrival> unboundedArrivalAt(dvec3 positionWorld) const;
     double attenuation(double distance) const;
     double falloff(double cosine) const;
 
@@ -34,8 +37,10 @@ private:
     double cosInner_, cosOuter_;
     const FunctionTable *attenuation_, *falloff_;  ///< null: glTF's
     const std::vector<bool>* litObjects_;          ///< null: all
+    const Volume* volume_;                         ///< null: everywhere
 };
 
-std::vector<LightSource> lightSources(const Scene& scene, const FunctionTables& tables);
+std::vector<LightSource> lightSources(const Scene& scene, const FunctionTables& tables,
+                                      const std::vector<Volume>& volumes);
 
 }  // namespace luciole::reference

@@ -11,6 +11,7 @@
 #include <luciole/error.hpp>
 
 #include "output/display.hpp"
+#include "output/fingerprint.shared.h"
 #include "output/request.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/lights.hpp"
@@ -29,7 +30,7 @@ struct Pixel {
     dvec3 normal{0};
     dvec3 Cs0{0}, Cs1{0};
     double material = -1, id = -1;
-    double lightCount = 0;
+    double evaluations = 0, lightCount = 0, fingerprint = 0;
 };
 
 struct Aov {
@@ -46,6 +47,9 @@ constexpr std::array kAovs{
     Aov{"material", 1, [](const Pixel& p) { return dvec3(p.material); }},
     Aov{"id", 1, [](const Pixel& p) { return dvec3(p.id); }},
     Aov{"light-count", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
+    Aov{"evaluations", 1, [](const Pixel& p) { return dvec3(p.evaluations); }},
+    Aov{"useful-evaluations", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
+    Aov{"light-fingerprint", 1, [](const Pixel& p) { return dvec3(p.fingerprint); }},
 };
 
 /// \param name one of aovNames(), checked
@@ -66,7 +70,8 @@ public:
           visibility_(scene),
           tables_(scene),
           surfaces_(scene, tables_),
-          lights_(lightSources(scene, tables_)) {}
+          volumes_(volumesOf(scene)),
+          lights_(lightSources(scene, tables_, volumes_)) {}
 
     Pixel at(uint32_t x, uint32_t y) const {
         const Ray ray = rays_.through(x, y);
@@ -92,12 +97,16 @@ private:
                     .Cs0 = surface.Cs0,
                     .Cs1 = surface.Cs1,
                     .material = double(object.material),
-                    .id = double(object.objectId)};
+                    .id = double(object.objectId),
+                    .evaluations = double(lights_.size())};
         const dvec3 V = rays_.toEye(surface.P);
-        for (const LightSource& light : lights_) {
+        for (uint32_t i = 0; i < lights_.size(); ++i) {
+            const LightSource& light = lights_[i];
+            if (!light.touches(object.objectId)) continue;
             const auto arrival = light.arrivalAt(surface.P);
-            if (!arrival || !light.touches(object.objectId)) continue;
+            if (!arrival) continue;
             ++pixel.lightCount;
+            pixel.fingerprint += shared::fingerprint(i);
             const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
             pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
         }
@@ -109,6 +118,7 @@ private:
     Visibility visibility_;
     FunctionTables tables_;
     Surfaces surfaces_;
+    std::vector<Volume> volumes_;
     std::vector<LightSource> lights_;
 };
 

@@ -67,8 +67,8 @@ gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, co
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
-    : context_(context), lights_(scene.lights), ambience_(scene.ambience), exposureEv_(scene.exposureEv),
-      functionCount_(uint32_t(scene.functions.size())) {
+    : context_(context), lights_(sortLights(scene)), volumes_(volumeTables(scene)), ambience_(scene.ambience),
+      exposureEv_(scene.exposureEv) {
     uploadMeshes(scene);
     uploadObjects(scene);
     uploadMaterials(scene);
@@ -77,13 +77,17 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     uploadFunctions(scene);
     links_ = gpu::uploadBuffer(context_, "link table", linkTable(scene, linkWords_), Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
+    sources_ = gpu::uploadBuffer(context_, "light sources", lights_.sources, Usage::eStorageBuffer);
     // Never smaller than the uniform block that shaders may read it through.
     const size_t uniformBytes = kUniformLights * sizeof(LightConstants);
-    lightTable_ = gpu::MappedBuffer(context_, "light table", std::max(lights_.size() * sizeof(LightConstants), uniformBytes),
-                                    Usage::eStorageBuffer | Usage::eUniformBuffer);
+    lightTable_ = gpu::makeBuffer(context_, "light table", std::max(lightCount() * sizeof(LightConstants), uniformBytes),
+                                  Usage::eStorageBuffer | Usage::eUniformBuffer);
+    volumeTable_ = gpu::uploadBuffer(context_, "light volumes", volumes_.volumes, Usage::eStorageBuffer);
+    volumeVertices_ = gpu::uploadBuffer(context_, "light volume vertices", volumes_.vertices, Usage::eStorageBuffer);
+    volumeIndices_ = gpu::uploadBuffer(context_, "light volume indices", render::volumeIndices(), Usage::eIndexBuffer);
     createFrameSet(pipelines);
-    lightFeatures_ = render::lightFeatures(lights_);
-    if (lights_.size() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange)
+    lightFeatures_ = render::lightFeatures(scene.lights);
+    if (lightCount() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange)
         lightFeatures_ |= kUsesUniformLights;
     for (const Material& material : scene.materials) equations_ |= 1u << uint32_t(material.equation);
     triangles_ = triangleCount(scene);
@@ -175,7 +179,7 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 1},
-                                            {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects},
+                                            {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1},
                                             {vk::DescriptorType::eUniformBuffer, 2}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 1,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
@@ -229,9 +233,12 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
                                 {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameSurfaces, *surfaces_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameLights, lightTable_.handle(), storage, VK_WHOLE_SIZE},
+                                {kFrameLights, *lightTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameLinks, *links_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameUniformLights, lightTable_.handle(), uniform, uniformLightBytes}};
+                                {kFrameUniformLights, *lightTable_.handle, uniform, uniformLightBytes},
+                                {kFrameSources, *sources_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameVolumes, *volumeTable_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
         context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = frameSet_,
@@ -254,17 +261,30 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
 }
 
 void GpuScene::setView(const View& view, const RenderSettings& settings) {
-    ViewConstants constants = viewConstants(view, ambience_);
-    constants.lightCount = lightCount();
-    constants.linkWords = linkWords_;
-    constants.exposure = std::exp2(exposureEv_ + settings.exposureEv);
-    constants.toneMap = uint32_t(settings.toneMap);
-    view_.write(std::span<const ViewConstants>(&constants, 1));
-    const dmat4 viewFromWorld = inverse(dmat4(view.camera.worldFromView));
-    std::vector<LightConstants> table;
-    table.reserve(lights_.size());
-    for (const Light& light : lights_) table.push_back(lightConstants(light, viewFromWorld, functionCount_));
-    lightTable_.write(std::span<const LightConstants>(table));
+    viewConstants_ = render::viewConstants(view, ambience_);
+    viewConstants_.lightCount = lightCount();
+    viewConstants_.linkWords = linkWords_;
+    viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);
+    viewConstants_.toneMap = uint32_t(settings.toneMap);
+    viewConstants_.cullLights = settings.cullLights;
+    viewConstants_.slack = viewSlack(view, settings.gbuffer);
+    view_.write(std::span<const ViewConstants>(&viewConstants_, 1));
+}
+
+std::vector<LightSlice> GpuScene::slices(uint32_t first, uint32_t count) const {
+    std::vector<LightSlice> slices;
+    uint32_t rounds = kLightsPerDraw;
+    for (uint32_t i = first; i < first + count; ++i) {
+        const LightConstants& light = lights_.sources[i];
+        const uint32_t more = 1 + (light.volume == kNoIndex ? 0 : volumeOf(light).vertexCount / 3);
+        if (rounds + more > kLightsPerDraw) {
+            slices.push_back({i, 0});
+            rounds = 0;
+        }
+        ++slices.back().count;
+        rounds += more;
+    }
+    return slices;
 }
 
 void GpuScene::draw(frame::PassContext& pass, GBufferLayout layout, bool depthOnly) const {
@@ -290,7 +310,7 @@ void GpuScene::draw(frame::PassContext& pass, GBufferLayout layout, bool depthOn
         // counter-clockwise to the rasterizer.
         pass.commands.setFrontFace(batch.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
         const MeshRange& mesh = meshes_[batch.mesh];
-        pass.commands.drawIndexed(mesh.indexCount, batch.objectCount, mesh.firstIndex, mesh.firstVertex, batch.firstObject);
+        pass.drawIndexed(mesh.indexCount, batch.objectCount, mesh.firstIndex, mesh.firstVertex, batch.firstObject);
     }
 }
 

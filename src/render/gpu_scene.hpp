@@ -7,7 +7,7 @@
 #include "frame/pass_context.hpp"
 #include "gpu/pipelines.hpp"
 #include "gpu/resources.hpp"
-#include "render/shaders/types.shared.h"
+#include "render/tables.hpp"
 
 namespace luciole::render {
 
@@ -25,15 +25,26 @@ class GpuScene {
 public:
     GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene);
 
-    /// Writes what depends on the view: its constants and the lights in view space.
+    /// Writes what depends on the view, whatever the number of lights.
     void setView(const View& view, const RenderSettings& settings);
+    const shared::ViewConstants& view() const { return viewConstants_; }
 
     vk::DescriptorSet frameSet() const { return frameSet_; }
 
     /// What the lighting shaders can leave out for this scene (types.shared.h, kConstant*).
     uint32_t equations() const { return equations_; }
     uint32_t lightFeatures() const { return lightFeatures_; }
-    uint32_t lightCount() const { return uint32_t(lights_.size()); }
+    uint32_t lightCount() const { return uint32_t(lights_.sources.size()); }
+    /// The order of the light tables, in world space.
+    const SortedLights& lights() const { return lights_; }
+    const shared::VolumeConstants& volumeOf(const shared::LightConstants& light) const { return volumes_.volumes[light.volume]; }
+    vk::Buffer volumeIndices() const { return *volumeIndices_.handle; }  ///< of the meshes of all levels of detail
+    /// The lights in view space, for the frame to fill.
+    vk::Buffer lightTable() const { return *lightTable_.handle; }
+    uint64_t lightTableBytes() const { return lightTable_.bytes; }
+    /// Lights [first, first + count), cut so that a draw that loops over a slice, and over the triangles of its lights' volumes,
+    /// stays below kLightsPerDraw rounds.
+    std::vector<shared::LightSlice> slices(uint32_t first, uint32_t count) const;
     uint64_t triangles() const { return triangles_; }
 
     /// Draws every batch with the geometry phase's shaders. `depthOnly`: the depth set-up pass.
@@ -62,7 +73,8 @@ private:
     gpu::Buffer vertices_, indices_;
     std::vector<MeshRange> meshes_;
     gpu::Buffer objects_, materials_, surfaces_, links_;
-    gpu::MappedBuffer view_, lightTable_;
+    gpu::Buffer sources_, lightTable_, volumeTable_, volumeVertices_, volumeIndices_;
+    gpu::MappedBuffer view_;
     gpu::Image functions_;
     std::vector<Batch> batches_;
     std::vector<DrawMaterial> drawMaterials_;
@@ -72,10 +84,11 @@ private:
     std::vector<std::pair<Sampler, vk::raii::Sampler>> samplers_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::DescriptorSet frameSet_;
-    std::vector<Light> lights_;
+    SortedLights lights_;
+    VolumeTables volumes_;
+    shared::ViewConstants viewConstants_{};
     Ambience ambience_;
     float exposureEv_ = 0;
-    uint32_t functionCount_ = 0;
     uint32_t equations_ = 0;
     uint32_t lightFeatures_ = 0;
     uint32_t linkWords_ = 0;

@@ -30,6 +30,7 @@ struct FrameKey {
     LightBufferFormat lightBuffer;
     bool depthPrepass;
     bool aovs;
+    bool counts;  ///< the technique runs a second time and counts
     bool operator==(const FrameKey&) const = default;
 };
 
@@ -65,22 +66,30 @@ void addGeometry(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey
     });
 }
 
+bool needsStencil(const LightingTechnique& technique, const GpuScene& scene) {
+    using Stencil = LightingTechnique::Stencil;
+    return technique.stencil == Stencil::always || (technique.stencil == Stencil::forMeshes && scene.lights().meshes > 0);
+}
+
 /// The whole frame, in order.
 BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, const GpuScene& scene, const FrameKey& key) {
     const vk::Extent2D extent{key.extent.x, key.extent.y};
     frame::FrameGraph graph;
-    const GBuffer gbuffer = createGBuffer(graph, key.gbuffer, extent);
+    const LightingTechnique& technique = techniqueNamed(key.lighting);
+    const GBuffer gbuffer = createGBuffer(graph, key.gbuffer, extent, needsStencil(technique, scene));
     const auto radianceFormat = key.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
                                                                               : vk::Format::eR16G16B16A16Sfloat;
     const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
-    const LightingInputs lighting{gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}};
+    const LightingInputs lighting{
+        gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}, addLightsInView(graph, scene)};
 
     if (key.depthPrepass) addDepthPrepass(graph, scene, key, gbuffer);
     addGeometry(graph, scene, key, gbuffer);
     addInitialLight(graph, lighting, radiance);
-    techniqueNamed(key.lighting).add(graph, lighting, radiance);
+    technique.add(graph, lighting, radiance);
     const frame::ImageId display = addToneMap(graph, radiance, extent);
-    const FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
+    FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
+    if (key.counts) outputs.counts = addCounts(graph, lighting, technique);
     return {.key = key, .outputs = outputs, .executor = frame::Executor(context, pipelines, std::move(graph))};
 }
 
@@ -112,8 +121,10 @@ struct Renderer::Impl {
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
         checkRequest(view, aovs);
         render::checkAgainstDevice(context, view.extent);
+        const bool counts = std::ranges::any_of(aovs, render::isCount);
+        const bool others = !std::ranges::all_of(aovs, render::isCount);
         const render::FrameKey key{view.extent,          settings.lighting,     settings.gbuffer,
-                                   settings.lightBuffer, settings.depthPrepass, !aovs.empty()};
+                                   settings.lightBuffer, settings.depthPrepass, others, counts};
         if (!frame || frame->key != key) {
             frame.reset();
             context.resetPeak();

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/lighting/light_volume.shared.h"
+
 namespace luciole::render {
 
 using namespace shared;
 
 // As the shaders lay them out (scalar block layout).
-static_assert(sizeof(ViewConstants) == 320);
+static_assert(sizeof(ViewConstants) == 352);
 static_assert(sizeof(ObjectConstants) == 112);
 static_assert(sizeof(TextureSlot) == 28);
 static_assert(sizeof(SurfaceConstants) == 84 + kTextureSlots * sizeof(TextureSlot));
 static_assert(sizeof(MaterialConstants) == 36);
-static_assert(sizeof(LightConstants) == 76 && kUniformLights * sizeof(LightConstants) <= 65536);
+static_assert(sizeof(LightConstants) == 84 && kUniformLights * sizeof(LightConstants) <= 65536);
 
 dmat4 clipFromView(const Camera& camera, double aspect) {
     dmat4 m(0);
@@ -53,14 +55,43 @@ ViewConstants viewConstants(const View& view, const Ambience& ambience) {
     constants.orthographic = view.camera.orthographic;
     constants.extent = vec2(view.extent);
     constants.exposure = 1;
+    constants.clipScale = vec2(clip[0][0], -clip[1][1]);
+    constants.zNear = view.camera.zNear;
+    constants.cullLights = 1;
     return constants;
 }
 
-LightConstants lightConstants(const Light& light, const dmat4& viewFromWorld, uint32_t functionCount) {
+vec4 viewSlack(const View& view, GBufferLayout layout) {
+    const Camera& camera = view.camera;
+    const dmat4 clip = clipFromView(camera, double(view.extent.x) / view.extent.y);
+    // A sixteenth of a pixel sideways: rasterizers snap vertices to a 256th.
+    const double pixel = std::max(2 / (clip[0][0] * view.extent.x), 2 / (-clip[1][1] * view.extent.y)) / 16;
+    constexpr double kRounding = 4e-6;    // of the matrices and positions, 32 units of roundoff
+    constexpr double kDepthStep = 5e-7;   // of the rasterizer's depth, 8 units of roundoff of the largest depth it meets
+    constexpr double kHalfStep = 1e-3;    // float: a half has 11 significant bits and may be truncated; all three coordinates
+    constexpr double kCode = 1 / 65535.0; // calver: depth has 16 bits
+    dvec4 slack(0);
+    if (camera.orthographic) {
+        const double depth = double(camera.zFar) - camera.zNear;
+        slack.x = pixel + depth * (kDepthStep + (layout == GBufferLayout::calver ? kCode : 0));
+        slack.y = kRounding;
+    } else {
+        slack.y = pixel + kRounding;
+        slack.w = kDepthStep;
+        // depth = near / z, so a step of depth is a step of z^2 / near.
+        if (layout == GBufferLayout::calver) slack.z = kCode / camera.zNear;
+        // Positions are not taken from depth here, and the depth of a surface that comes near the eye is rounded as such.
+        if (layout == GBufferLayout::floatPosition) slack.z = kDepthStep / camera.zNear;
+    }
+    if (layout == GBufferLayout::floatPosition) slack.y += kHalfStep;
+    return vec4(slack);
+}
+
+LightConstants lightConstants(const Light& light, uint32_t index, uint32_t functionCount) {
     LightConstants constants{};
     constants.type = uint32_t(light.type);
-    constants.position = vec3(viewFromWorld * dvec4(light.positionWorld, 1));
-    constants.direction = vec3(normalize(dmat3(viewFromWorld) * dvec3(light.directionWorld)));
+    constants.position = light.positionWorld;
+    constants.direction = light.type == LightType::point ? vec3(0, 0, -1) : vec3(normalize(dvec3(light.directionWorld)));
     constants.color = light.color;
     const bool bounded = std::isfinite(light.range);
     constants.range = bounded ? light.range : std::numeric_limits<float>::max();
@@ -76,7 +107,49 @@ LightConstants lightConstants(const Light& light, const dmat4& viewFromWorld, ui
     constants.attenuation = light.attenuation == kNone ? kNoIndex : functionCount + light.attenuation;
     constants.falloff = light.falloff;
     constants.linkGroup = light.linkGroup;
+    constants.volume = light.volume;
+    constants.sceneIndex = index;
     return constants;
+}
+
+SortedLights sortLights(const Scene& scene) {
+    // A shape of this radius encloses whatever has a depth.
+    constexpr float kBoundless = 1e6f;
+    SortedLights sorted;
+    std::vector<LightConstants> shaped, meshes;
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        const LightConstants constants = lightConstants(light, i, uint32_t(scene.functions.size()));
+        if (light.volume != kNone)
+            meshes.push_back(constants);
+        else if (light.type != LightType::directional && light.range < kBoundless)
+            shaped.push_back(constants);
+        else
+            sorted.sources.push_back(constants);
+    }
+    sorted.unbounded = uint32_t(sorted.sources.size());
+    sorted.shaped = uint32_t(shaped.size());
+    sorted.meshes = uint32_t(meshes.size());
+    for (const auto* more : {&shaped, &meshes}) sorted.sources.insert(sorted.sources.end(), more->begin(), more->end());
+    return sorted;
+}
+
+VolumeTables volumeTables(const Scene& scene) {
+    VolumeTables tables;
+    for (const LightVolume& volume : scene.lightVolumes) {
+        VolumeConstants constants{.firstVertex = uint32_t(tables.vertices.size()),
+                                  .vertexCount = uint32_t(volume.indices.size()),
+                                  .low = vec3(std::numeric_limits<float>::infinity()),
+                                  .high = vec3(-std::numeric_limits<float>::infinity())};
+        for (const uint32_t index : volume.indices) {
+            const vec3 position = volume.positionsWorld[index];
+            constants.low = min(constants.low, position);
+            constants.high = max(constants.high, position);
+            tables.vertices.push_back(position);
+        }
+        tables.volumes.push_back(constants);
+    }
+    return tables;
 }
 
 uint32_t lightFeatures(const std::vector<Light>& lights) {
@@ -86,9 +159,29 @@ uint32_t lightFeatures(const std::vector<Light>& lights) {
         if (light.type == LightType::spot) features |= kUsesSpot;
         if (light.attenuation != kNone || light.falloff != kNone) features |= kUsesCurves;
         if (light.linkGroup != kNone) features |= kUsesLinks;
+        if (light.volume != kNone) features |= kUsesVolumes;
         if (light.contribution != LightContribution::diffuseAndSpecular || light.infiniteViewer) features |= kUsesContributions;
     }
     return features;
+}
+
+std::vector<uint32_t> volumeIndices() {
+    std::vector<uint32_t> indices{0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,   // -z, +z, -y
+                                  2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};  // +y, -x, +x
+    for (uint32_t lod = 1; lod < kVolumeLods; ++lod) {
+        const uint32_t slices = volumeSlices(lod), rings = volumeRings(lod);
+        const auto vertex = [&](uint32_t ring, uint32_t slice) { return 2 + (ring - 1) * slices + slice % slices; };
+        for (uint32_t slice = 0; slice < slices; ++slice) {
+            indices.insert(indices.end(), {1, vertex(1, slice), vertex(1, slice + 1)});
+            for (uint32_t ring = 1; ring < rings; ++ring) {
+                const uint32_t a = vertex(ring, slice), b = vertex(ring + 1, slice);
+                const uint32_t c = vertex(ring + 1, slice + 1), d = vertex(ring, slice + 1);
+                indices.insert(indices.end(), {a, b, c, a, c, d});
+            }
+            indices.insert(indices.end(), {0, vertex(rings, slice + 1), vertex(rings, slice)});
+        }
+    }
+    return indices;
 }
 
 namespace {

@@ -10,8 +10,32 @@ namespace luciole::render {
 
 shared::ViewConstants viewConstants(const View& view, const Ambience& ambience);
 
-/// \param viewFromWorld of the view the light is put into; \param functionCount of the scene (see functionTable)
-shared::LightConstants lightConstants(const Light& light, const dmat4& viewFromWorld, uint32_t functionCount);
+/// The coefficients of slackOf (light_volume.shared.h): how far the G-buffer of this layout, the rasterizer's snapping to
+/// sub-pixels and the rounding of depth may move a surface point against a light's shape.
+vec4 viewSlack(const View& view, GBufferLayout layout);
+
+/// The light in world space. \param index in Scene::lights; \param functionCount of the scene (see functionTable)
+shared::LightConstants lightConstants(const Light& light, uint32_t index, uint32_t functionCount);
+
+/// The scene's lights sorted by the shape that a technique has to draw for them, in the scene's order within each.
+struct SortedLights {
+    std::vector<shared::LightConstants> sources;
+    uint32_t unbounded = 0;  ///< so many first: directional ones and those with no range worth the name
+    uint32_t shaped = 0;     ///< then so many that a ball or its sector encloses
+    uint32_t meshes = 0;     ///< then those that a mesh bounds
+};
+SortedLights sortLights(const Scene& scene);
+
+struct VolumeTables {
+    std::vector<shared::VolumeConstants> volumes;
+    std::vector<vec3> vertices;  ///< three per triangle
+};
+VolumeTables volumeTables(const Scene& scene);
+
+/// Triangles of the convex meshes of all levels of detail, one level after the other (light_volume.shared.h),
+/// counter-clockwise from outside.
+std::vector<uint32_t> volumeIndices();
+
 uint32_t lightFeatures(const std::vector<Light>& lights);
 
 /// The material as both phases read it. `colorBound`: the largest vertex colour channel met on it, at least 1.

@@ -6,6 +6,8 @@
 #include <luciole/error.hpp>
 #include <luciole/scene.hpp>
 
+#include "scene/light_volume.hpp"
+
 namespace luciole {
 namespace {
 
@@ -216,6 +218,11 @@ void checkLight(const Element& element, const Light& light, const Scene& scene) 
     }
     element.optionalIndex("falloff", light.falloff, scene.functions.size());
     element.optionalIndex("linkGroup", light.linkGroup, scene.linkGroups.size());
+    element.optionalIndex("volume", light.volume, scene.lightVolumes.size());
+}
+
+void checkVolume(const Element& element, const LightVolume& volume) {
+    if (const auto fault = faultOf(volume)) element.fail(fault->field, fault->expected, fault->got);
 }
 
 void checkCamera(const Element& element, const Camera& camera) {
@@ -245,6 +252,13 @@ void checkLimits(const Scene& scene) {
     checkLimit("materials", scene.materials.size(), kMaxMaterials);
     checkLimit("functions", scene.functions.size(), kMaxFunctions);
     checkLimit("linkGroups", scene.linkGroups.size(), kMaxLinkGroups);
+    for (size_t i = 0; i < scene.lightVolumes.size(); ++i) {
+        const LightVolume& volume = scene.lightVolumes[i];
+        if (volume.indices.size() / 3 > kMaxVolumeTriangles) {
+            checkLimit(fmt::format("lightVolumes[{}] \"{}\": triangles", i, volume.name), volume.indices.size() / 3,
+                       kMaxVolumeTriangles);
+        }
+    }
     for (size_t i = 0; i < scene.objects.size(); ++i) {
         if (scene.objects[i].objectId > kMaxObjectId) {
             checkLimit(fmt::format("objects[{}] \"{}\": objectId", i, scene.objects[i].name), scene.objects[i].objectId,
@@ -265,6 +279,7 @@ void validate(const Scene& scene) {
     }
     forEach("functions", scene.functions, checkFunction);
     forEach("materials", scene.materials, [&](const Element& e, const Material& m) { checkMaterial(e, m, scene); });
+    forEach("lightVolumes", scene.lightVolumes, checkVolume);
     forEach("lights", scene.lights, [&](const Element& e, const Light& l) { checkLight(e, l, scene); });
     forEach("cameras", scene.cameras, checkCamera);
     const Element ambience("ambience");

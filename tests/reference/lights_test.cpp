@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "reference/lights.hpp"
+#include "reference/volume.hpp"
 #include "scene_building.hpp"
+#include "volume_building.hpp"
 
 using namespace luciole;
 using namespace luciole::reference;
@@ -15,14 +17,15 @@ namespace {
 /// Irradiance of a light on a plane that faces it, red; 0 where nothing arrives.
 double irradiance(const Scene& scene, const Light& light, dvec3 at) {
     const FunctionTables tables(scene);
-    const auto arrival = LightSource(scene, tables, light).arrivalAt(at);
+    const std::vector<Volume> volumes = volumesOf(scene);
+    const auto arrival = LightSource(scene, tables, volumes, light).arrivalAt(at);
     return arrival ? arrival->E.r : 0;
 }
 
 /// What arrives of a light that refers to nothing.
 std::optional<Arrival> arrivalOf(const Light& light, dvec3 at) {
     const Scene empty;
-    return LightSource(empty, FunctionTables(empty), light).arrivalAt(at);
+    return LightSource(empty, FunctionTables(empty), {}, light).arrivalAt(at);
 }
 
 }  // namespace
@@ -96,9 +99,26 @@ TEST_CASE("light links: a light touches the objects of its group, and all withou
     scene.linkGroups.push_back({.name = "", .litObjects = {false, true}});
     Light light = pointLight({0, 0, 0});
     const FunctionTables tables(scene);
-    CHECK(LightSource(scene, tables, light).touches(60000));
+    CHECK(LightSource(scene, tables, {}, light).touches(60000));
     light.linkGroup = 0;
-    CHECK_FALSE(LightSource(scene, tables, light).touches(0));
-    CHECK(LightSource(scene, tables, light).touches(1));
-    CHECK_FALSE(LightSource(scene, tables, light).touches(2));
+    CHECK_FALSE(LightSource(scene, tables, {}, light).touches(0));
+    CHECK(LightSource(scene, tables, {}, light).touches(1));
+    CHECK_FALSE(LightSource(scene, tables, {}, light).touches(2));
+}
+
+TEST_CASE("light volumes: a light of any type arrives inside and nowhere else, range and cone apart") {
+    Scene scene;
+    scene.lightVolumes.push_back(boxVolume({-1, -1, -1}, {1, 1, 1}));
+    for (Light light : {directionalLight({0, 0, -1}), pointLight({0, 0, 0.5f}, vec3(1), 1),
+                        spotLight({0, 0, 0.9f}, {0, 0, -1}, 0.1f, 0.8f)}) {
+        const double bare = irradiance(scene, light, {0.1, 0.1, -0.3});
+        CHECK(bare > 0);
+        light.volume = 0;
+        CHECK(irradiance(scene, light, {0.1, 0.1, -0.3}) == bare);
+        CHECK(irradiance(scene, light, {0.1, 0.1, -1.1}) == 0);
+        CHECK(irradiance(scene, light, {1.1, 0, 0.5}) == 0);
+    }
+    Light light = pointLight({0, 0, 0}, vec3(1), 0.5f);
+    light.volume = 0;
+    CHECK(irradiance(scene, light, {0, 0, 0.6}) == 0);  // inside, but out of range
 }

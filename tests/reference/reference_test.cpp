@@ -8,8 +8,10 @@
 #include <luciole/error.hpp>
 #include <luciole/reference.hpp>
 
+#include "output/fingerprint.shared.h"
 #include "reference/parallel_rows.hpp"
 #include "scene_building.hpp"
+#include "volume_building.hpp"
 
 using namespace luciole;
 using namespace luciole::test;
@@ -95,6 +97,33 @@ TEST_CASE("reference: a light with a link group lights the objects in it only") 
     CHECK(frame.radiance.at(1, 0, 0) == Approx(1 / kPi));
     CHECK(frame.aovs.at("light-count").at(0, 0, 0) == 0);
     CHECK(frame.aovs.at("light-count").at(1, 0, 0) == 1);
+}
+
+TEST_CASE("reference: a light with a volume lights what is inside only, and layers say which lights reach a pixel") {
+    Scene scene;
+    addObject(scene, quad(), lambertMaterial(scene));
+    scene.lights = {directionalLight({0, 0, -1}), directionalLight({0, 0, -1}), pointLight({0, 0, 9}, vec3(1), 1)};
+    scene.lights[1].volume = 0;
+    // Seen from the front an L without its upper right quarter, and behind the quad as much as before it.
+    LightVolume volume = boxVolume({-2, -2, -1}, {0, 2, 1});
+    append(volume, boxVolume({0, -2, -1}, {2, 0, 1}));
+    scene.lightVolumes.push_back(volume);
+    validate(scene);
+    const View view{.camera = frontOrthographicCamera(2, 1.25f), .extent = {10, 10}};
+    const Frame frame =
+        renderReference(scene, view, {}, {"light-count", "evaluations", "useful-evaluations", "light-fingerprint"});
+    for (uint32_t y = 0; y < 10; ++y)
+        for (uint32_t x = 0; x < 10; ++x) {
+            const bool there = x > 0 && x < 9 && y > 0 && y < 9;  // pixels of 0.25 m, a quad of 2 m
+            const bool inside = there && (x < 5 || y >= 5);
+            const auto layer = [&](const char* name) { return frame.aovs.at(name).at(x, y, 0); };
+            CHECK(frame.radiance.at(x, y, 0) == Approx((there + inside) / kPi).epsilon(1e-6));
+            CHECK(layer("light-count") == there + inside);
+            CHECK(layer("useful-evaluations") == there + inside);
+            CHECK(layer("evaluations") == (there ? 3 : 0));
+            CHECK(layer("light-fingerprint") ==
+                  float(there * shared::fingerprint(0) + inside * shared::fingerprint(1)));
+        }
 }
 
 TEST_CASE("reference: a double-sided quad seen from behind is lit from behind") {

@@ -33,6 +33,13 @@ Mesh triangle() {
     return mesh;
 }
 
+/// A tetrahedron, closed.
+LightVolume tetrahedron() {
+    return {.name = "shape",
+            .positionsWorld = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+            .indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+}
+
 /// A valid scene with one of everything.
 Scene completeScene() {
     Scene scene;
@@ -44,6 +51,8 @@ Scene completeScene() {
     scene.functions = {{.name = "f"}};
     scene.lights = {{.name = "lamp"}};
     scene.linkGroups = {{.name = "group"}};
+    scene.lightVolumes = {tetrahedron()};
+    scene.lights[0].volume = 0;
     scene.cameras = {{.name = "eye"}};
     return scene;
 }
@@ -340,6 +349,24 @@ TEST_CASE("validate: each broken rule is named with its element") {
          [](Scene& s) { s.lights[0].attenuation = 0; }},
         {"lights[0] \"lamp\": falloff", [](Scene& s) { s.lights[0].falloff = 1; }},
         {"lights[0] \"lamp\": linkGroup", [](Scene& s) { s.lights[0].linkGroup = 1; }},
+        {"lights[0] \"lamp\": volume: expected an index below 1, got 1", [](Scene& s) { s.lights[0].volume = 1; }},
+        {"lightVolumes[0] \"shape\": indices: expected a multiple of 3, at least one triangle, got 0",
+         [](Scene& s) { s.lightVolumes[0].indices.clear(); }},
+        {"lightVolumes[0] \"shape\": indices: expected a multiple of 3, at least one triangle, got 11",
+         [](Scene& s) { s.lightVolumes[0].indices.pop_back(); }},
+        {"lightVolumes[0] \"shape\": indices[4]: expected an index below 4, got 4",
+         [](Scene& s) { s.lightVolumes[0].indices[4] = 4; }},
+        {"lightVolumes[0] \"shape\": positionsWorld[2]: expected finite numbers, got (0, inf, 0)",
+         [](Scene& s) { s.lightVolumes[0].positionsWorld[2].y = kInfinity; }},
+        {"lightVolumes[0] \"shape\": positionsWorld[3]: expected finite numbers",
+         [](Scene& s) { s.lightVolumes[0].positionsWorld[3].x = kNan; }},
+        {"lightVolumes[0] \"shape\": indices: expected a closed surface, triangles turned alike (each edge run through as "
+         "often one way as the other), got 3 open edges, one of them from (1, 0, 0) to (0, 1, 0)",
+         [](Scene& s) { s.lightVolumes[0].indices.resize(9); }},
+        {"lightVolumes[0] \"shape\": indices: expected a closed surface",  // one triangle turned over
+         [](Scene& s) { std::swap(s.lightVolumes[0].indices[0], s.lightVolumes[0].indices[1]); }},
+        {"lightVolumes[0] \"shape\": indices: expected a closed surface",  // one triangle twice
+         [](Scene& s) { s.lightVolumes[0].indices.insert(s.lightVolumes[0].indices.end(), {0, 2, 1}); }},
         {"cameras[0] \"eye\": worldFromView", [](Scene& s) { s.cameras[0].worldFromView[0].x = 2; }},
         {"cameras[0] \"eye\": worldFromView", [](Scene& s) { s.cameras[0].worldFromView[0].x = -1; }},
         {"cameras[0] \"eye\": worldFromView", [](Scene& s) { s.cameras[0].worldFromView[0].y = 0.1f; }},
@@ -411,6 +438,23 @@ TEST_CASE("validate: what a light, material or camera does not use is not held a
     }
 }
 
+TEST_CASE("validate: a light volume's vertices at equal positions are one, and triangles without area do not count") {
+    Scene scene = completeScene();
+    LightVolume& volume = scene.lightVolumes[0];
+    const LightVolume shared = tetrahedron();
+    volume.positionsWorld.clear();
+    volume.indices.clear();
+    for (const uint32_t index : shared.indices) {
+        volume.indices.push_back(uint32_t(volume.positionsWorld.size()));
+        volume.positionsWorld.push_back(index == 0 ? vec3(0, -0.0f, 0) : shared.positionsWorld[index]);
+    }
+    CHECK_NOTHROW(validate(scene));
+    volume.indices.insert(volume.indices.end(), {0, 3, 1});  // 0 and 3 are one
+    CHECK_NOTHROW(validate(scene));
+    volume.positionsWorld[3].x = 1e-6f;
+    CHECK_THROWS_AS(validate(scene), Error);
+}
+
 TEST_CASE("validate: limits are errors of their own kind and give both numbers") {
     struct Limit {
         const char* expected;
@@ -421,6 +465,8 @@ TEST_CASE("validate: limits are errors of their own kind and give both numbers")
          [](Scene& s) { s.objects[0].objectId = 65536; }},
         {"materials: expected at most 65535, got 65536", [](Scene& s) { s.materials.resize(65536); }},
         {"linkGroups: expected at most 4096, got 4097", [](Scene& s) { s.linkGroups.resize(4097); }},
+        {"lightVolumes[0] \"shape\": triangles: expected at most 16384, got 16385",
+         [](Scene& s) { s.lightVolumes[0].indices.resize(3 * 16385); }},
         {"functions: expected at most 1024, got 1025", [](Scene& s) { s.functions.resize(1025); }},
     };
     for (const Limit& limit : limits) {

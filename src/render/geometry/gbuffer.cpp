@@ -13,20 +13,23 @@ std::array<vk::Format, 4> targetFormats(GBufferLayout layout) {
     }
 }
 
-GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent) {
+GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil) {
     const auto formats = targetFormats(layout);
     GBuffer gbuffer;
     for (size_t i = 0; i < formats.size(); ++i)
         gbuffer.targets[i] = graph.createImage(std::string("gbuffer.") + "abcd"[i], {formats[i], extent});
-    gbuffer.depth = graph.createImage("depth", {kDepthFormat, extent});
+    gbuffer.depth = graph.createImage("depth", {stencil ? vk::Format::eD32SfloatS8Uint : vk::Format::eD32Sfloat, extent});
     return gbuffer;
 }
 
-void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer) {
+void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer, Access depth) {
     for (uint32_t i = 0; i < gbuffer.targets.size(); ++i)
         pass.read(gbuffer.targets[i], Access::fragmentSampled, i);
     pass.read(gbuffer.depth, Access::fragmentSampled, 4);
-    pass.read(gbuffer.depth, Access::depthTest);
+    if (depth == Access::stencilWrite)
+        pass.update(gbuffer.depth, depth);
+    else
+        pass.read(gbuffer.depth, depth);
 }
 
 }  // namespace luciole::render

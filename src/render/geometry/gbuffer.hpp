@@ -13,13 +13,13 @@ struct GBuffer {
     frame::ImageId depth;
 };
 
-constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 std::array<vk::Format, 4> targetFormats(GBufferLayout layout);
 
-GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent);
+/// \param stencil whether the depth buffer has one; the geometry phase leaves it at 0
+GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil);
 
-/// Declares that a full-screen pass reads the G-buffer (bindings of gbuffer_read.glsl) and tests against its depth, so
-/// that it runs only where a surface is.
-void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer);
+/// Declares that a pass reads the G-buffer (bindings of gbuffer_read.glsl) and tests against its depth.
+/// \param depth depthTest, or stencilWrite for a pass that marks the stencil as well
+void readGBuffer(frame::PassBuilder& pass, const GBuffer& gbuffer, frame::Access depth = frame::Access::depthTest);
 
 }  // namespace luciole::render

@@ -1,27 +1,29 @@
-#include <algorithm>
-
-#include "frame/pass_context.hpp"
 #include "render/lighting/techniques.hpp"
 
 namespace luciole::render {
 
 using frame::Access;
 
+void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std::vector<uint32_t>& constants, uint32_t first,
+                      uint32_t count) {
+    pass.bind({.vertex = "render/shaders/full_screen.vert",
+               .fragment = "render/lighting/brute_force.frag",
+               .additive = true,
+               .constants = constants});
+    pass.depth(vk::CompareOp::eLess, false);
+    for (const shared::LightSlice& slice : scene.slices(first, count)) {
+        pass.push(slice);
+        pass.drawFullScreen();
+    }
+}
+
 // Every light at every pixel in one pass, whatever its range: no bound that could be wrong, nothing to overflow. A draw
-// sums up to kLightsPerDraw of them in registers; so many are rounded once.
-void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance) {
+// sums up a slice of the lights in registers; so many are rounded once.
+void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     auto pass = graph.addPass("lighting.brute-force");
-    readGBuffer(pass, in.gbuffer);
-    pass.update(radiance, Access::colorBlend).record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
-        context.bind({.vertex = "render/shaders/full_screen.vert",
-                      .fragment = "render/lighting/brute_force.frag",
-                      .additive = true,
-                      .constants = constants});
-        context.depth(vk::CompareOp::eLess, false);
-        for (uint32_t first = 0; first < lightCount; first += shared::kLightsPerDraw) {
-            context.push(shared::LightSlice{first, std::min(shared::kLightsPerDraw, lightCount - first)});
-            context.drawFullScreen();
-        }
+    in.readBy(pass);
+    pass.update(sum, Access::colorBlend).record([&scene = in.scene, constants = in.constants](frame::PassContext& context) {
+        drawAtEveryPixel(context, scene, constants, 0, scene.lightCount());
     });
 }
 

@@ -1,4 +1,3 @@
-#include "frame/pass_context.hpp"
 #include "render/lighting/techniques.hpp"
 
 namespace luciole::render {
@@ -8,10 +7,10 @@ using frame::Access;
 // Calver 2003, "Full screen lights": a light shader runs at every pixel and its result is accumulated in the light
 // buffer. One rounding per light: an RGBA16F buffer loses up to half a unit in the last place each (and drivers that
 // truncate lose more; see docs/performance.md).
-void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance) {
+void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     auto pass = graph.addPass("lighting.fullscreen");
-    readGBuffer(pass, in.gbuffer);
-    pass.update(radiance, Access::colorBlend)
+    in.readBy(pass);
+    pass.update(sum, Access::colorBlend)
         .record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert",
                           .fragment = "render/lighting/full_screen.frag",

@@ -1,4 +1,3 @@
-#include "frame/pass_context.hpp"
 #include "render/lighting/techniques.hpp"
 
 namespace luciole::render {
@@ -7,7 +6,7 @@ using frame::Access;
 
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance) {
     auto pass = graph.addPass("lighting.initial");
-    readGBuffer(pass, in.gbuffer);
+    in.readBy(pass);
     pass.clear(radiance, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f))
         .record([constants = in.constants](frame::PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert",

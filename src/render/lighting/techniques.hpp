@@ -3,6 +3,7 @@
 
 #include <luciole/renderer.hpp>
 
+#include "frame/pass_context.hpp"
 #include "render/geometry/gbuffer.hpp"
 #include "render/gpu_scene.hpp"
 
@@ -13,14 +14,23 @@ struct LightingInputs {
     const GBuffer& gbuffer;
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
+    frame::BufferId lights;           ///< the table of lights in view space, as the frame's set names it
+
+    /// Declares that a pass reads G-buffer and lights, and tests against depth (see readGBuffer).
+    void readBy(frame::PassBuilder& pass, frame::Access depth = frame::Access::depthTest) const {
+        readGBuffer(pass, gbuffer, depth);
+        pass.read(lights, frame::Access::tableRead);
+    }
 };
 
-/// Adds its passes, which add the light of all of the scene's lights to `radiance`.
-using AddLighting = void (*)(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
+/// Adds its passes, which add the light of all of the scene's lights to `sum`: radiance, or, with kCountsLights among the
+/// constants, counts (contribution.glsl).
+using AddLighting = void (*)(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 
 struct LightingTechnique {
     LightingTechniqueInfo info;
     AddLighting add;
+    enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
 };
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
@@ -29,10 +39,22 @@ const std::vector<LightingTechnique>& techniques();
 /// \throws Error(usage) listing the names
 const LightingTechnique& techniqueNamed(const std::string& name);
 
+/// The pass that takes the lights into view space. \return what LightingInputs calls `lights`
+frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene);
+
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
-void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
-void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
+void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addQuad(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addVolume(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addVolumeStencil(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addVolumeStencilReference(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+
+/// Draws lights [first, first + count) at every pixel that holds a surface, summed in registers (brute_force.frag).
+void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std::vector<uint32_t>& constants, uint32_t first,
+                      uint32_t count);
 
 }  // namespace luciole::render

@@ -10,19 +10,10 @@ layout(location = 1) out vec4 normal;   // world space
 layout(location = 2) out vec4 cs0;
 layout(location = 3) out vec4 cs1;
 
-bool reaches(LightConstants light, Surface s) {
-    if (!linked(light.linkGroup, s.objectId)) return false;
-    if (light.type == kLightDirectional) return true;
-    const vec3 toLight = light.position - s.P;
-    const float dist = length(toLight);
-    const bool inCone = light.type != kLightSpot || -dot(toLight, light.direction) > light.cosOuter * dist;
-    return dist < light.range && inCone;
-}
-
 void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     uint count = 0u;
-    for (uint i = 0u; i < slice.count; ++i) count += uint(reaches(lightAt(slice.first + i), s));
+    for (uint i = 0u; i < slice.count; ++i) count += uint(reaches(lightAt(slice.first + i), s.P, s.objectId));
     // Later slices are added to the first: they bring their lights only.
     const float once = slice.first == 0u ? 1.0 : 0.0;
     // materials[0] stands for "no surface", so the scene's indices are one lower.

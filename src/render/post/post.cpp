@@ -34,7 +34,7 @@ frame::BufferId addReadback(frame::FrameGraph& graph, const std::string& name, f
 std::array<frame::ImageId, 4> addAovs(frame::FrameGraph& graph, const LightingInputs& in, vk::Extent2D extent) {
     std::array<frame::ImageId, 4> images;
     auto pass = graph.addPass("output.aov");
-    readGBuffer(pass, in.gbuffer);
+    in.readBy(pass);
     const char* names[] = {"aov.scalars", "aov.normal", "aov.cs0", "aov.cs1"};
     for (size_t i = 0; i < images.size(); ++i) {
         images[i] = graph.createImage(names[i], {kFloat, extent});
@@ -42,18 +42,18 @@ std::array<frame::ImageId, 4> addAovs(frame::FrameGraph& graph, const LightingIn
         const auto empty = i == 0 ? vk::ClearColorValue(0.0f, -1.0f, -1.0f, 0.0f) : vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f);
         pass.clear(images[i], Access::colorWrite, empty);
     }
-    pass.record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
+    pass.record([&scene = in.scene, constants = in.constants](frame::PassContext& context) {
         context.depth(vk::CompareOp::eLess, false);
-        uint32_t first = 0;
-        do {
+        std::vector<shared::LightSlice> slices = scene.slices(0, scene.lightCount());
+        if (slices.empty()) slices.push_back({0, 0});  // there are layers without light, too
+        for (const shared::LightSlice& slice : slices) {
             context.bind({.vertex = "render/shaders/full_screen.vert",
                           .fragment = "render/post/aov.frag",
-                          .additive = first > 0,
+                          .additive = slice.first > 0,
                           .constants = constants});
-            context.push(shared::LightSlice{first, std::min(shared::kLightsPerDraw, lightCount - first)});
+            context.push(slice);
             context.drawFullScreen();
-            first += shared::kLightsPerDraw;
-        } while (first < lightCount);
+        }
     });
     return images;
 }
@@ -89,7 +89,7 @@ frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk:
 
 FrameOutputs addOutputs(frame::FrameGraph& graph, const LightingInputs& lighting, frame::ImageId radiance,
                         frame::ImageId display, vk::Extent2D extent, bool aovs) {
-    FrameOutputs outputs{addReadback(graph, "radiance", radiance), addReadback(graph, "display", display), {}};
+    FrameOutputs outputs{addReadback(graph, "radiance", radiance), addReadback(graph, "display", display)};
     if (aovs) {
         const auto images = addAovs(graph, lighting, extent);
         outputs.aovs = {addReadback(graph, "aov.scalars", images[0]), addReadback(graph, "aov.normal", images[1]),
@@ -98,21 +98,37 @@ FrameOutputs addOutputs(frame::FrameGraph& graph, const LightingInputs& lighting
     return outputs;
 }
 
+bool isCount(const std::string& aov) {
+    return aov == "evaluations" || aov == "useful-evaluations" || aov == "light-fingerprint";
+}
+
+frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighting, const LightingTechnique& technique) {
+    const frame::ImageId counts = graph.createImage("counts", {kFloat, graph.resources()[lighting.gbuffer.depth.index].image.extent});
+    LightingInputs counting = lighting;
+    counting.constants[shared::kConstantLights] |= shared::kCountsLights;
+    graph.addPass("output.counts.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    technique.add(graph, counting, counts);
+    return addReadback(graph, "counts", counts);
+}
+
 Frame readOutputs(const frame::Executor& executor, const FrameOutputs& outputs, uvec2 extent, LightBufferFormat format,
                   const std::vector<std::string>& aovs) {
     struct Source {
         const char* name;
         uint32_t image, first, count;
     };
+    constexpr uint32_t kCounts = 4;
     constexpr Source kSources[] = {{"depth", 0, 0, 1},  {"material", 0, 1, 1}, {"id", 0, 2, 1}, {"light-count", 0, 3, 1},
-                                   {"normal", 1, 0, 3}, {"cs0", 2, 0, 3},      {"cs1", 3, 0, 3}};
+                                   {"normal", 1, 0, 3}, {"cs0", 2, 0, 3},      {"cs1", 3, 0, 3},
+                                   {"evaluations", kCounts, 0, 1}, {"useful-evaluations", kCounts, 1, 1}, {"light-fingerprint", kCounts, 2, 1}};
     Frame frame;
     frame.radiance = radianceImage(executor, outputs.radiance, extent, format);
     frame.display = channels(executor.read<float>(outputs.display), extent, 0, 3);
     for (const Source& source : kSources)
         if (std::ranges::find(aovs, source.name) != aovs.end())
             frame.aovs[source.name] =
-                channels(executor.read<float>((*outputs.aovs)[source.image]), extent, source.first, source.count);
+                channels(executor.read<float>(source.image == kCounts ? *outputs.counts : (*outputs.aovs)[source.image]), extent,
+                         source.first, source.count);
     return frame;
 }
 

@@ -17,6 +17,9 @@ layout(set = 0, binding = 4, scalar) readonly buffer Lights { LightConstants lig
 layout(set = 0, binding = 5, scalar) readonly buffer Links { uint links[]; };
 layout(set = 0, binding = 6) uniform sampler2D functions;
 layout(set = 0, binding = 7, scalar) uniform UniformLights { LightConstants uniformLights[kUniformLights]; };
+layout(set = 0, binding = 8, scalar) readonly buffer Sources { LightConstants sources[]; };
+layout(set = 0, binding = 9, scalar) readonly buffer Volumes { VolumeConstants volumes[]; };
+layout(set = 0, binding = 10, scalar) readonly buffer VolumeVertices { vec3 volumeVertices[]; };
 
 LightConstants lightAt(uint index) {
     if ((kLights & kUsesUniformLights) != 0u) return uniformLights[index];

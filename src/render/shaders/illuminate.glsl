@@ -43,6 +43,53 @@ bool linked(uint group, uint objectId) {
     return group == kNoIndex || (links[group * view.linkWords + (objectId >> 5u)] >> (objectId & 31u) & 1u) != 0u;
 }
 
+// Which way edge (a, b) passes the origin. The edge's other triangle asks for (b, a) and must hear the opposite, to the bit:
+// so it is computed in one order only.
+bool passesLeft(vec2 a, vec2 b) {
+    const bool swapped = a.x != b.x ? a.x > b.x : a.y > b.y;
+    const vec2 u = swapped ? b : a;
+    const vec2 v = swapped ? a : b;
+    return (u.x * v.y - u.y * v.x >= 0.0) != swapped;
+}
+
+// Whether the volume's surface winds about P (Calver 2003, "Concave Light Volume"): how often a ray along +z leaves it less
+// how often it enters.
+bool insideVolume(uint volume, vec3 positionWorld) {
+    const VolumeConstants bounds = volumes[volume];
+    const bool outside = any(lessThan(positionWorld, bounds.low)) || any(greaterThan(positionWorld, bounds.high));
+    const uint vertexCount = outside ? 0u : bounds.vertexCount;
+    int winding = 0;
+    for (uint i = 0u; i < vertexCount; i += 3u) {
+        const vec3 a = volumeVertices[bounds.firstVertex + i] - positionWorld;
+        const vec3 b = volumeVertices[bounds.firstVertex + i + 1u] - positionWorld;
+        const vec3 c = volumeVertices[bounds.firstVertex + i + 2u] - positionWorld;
+        const bool left = passesLeft(a.xy, b.xy);
+        if (passesLeft(b.xy, c.xy) == left && passesLeft(c.xy, a.xy) == left) {
+            const vec3 normal = cross(b - a, c - a);  // of the side that sees its corners counter-clockwise
+            const bool above = (dot(normal, a) >= 0.0) == (normal.z >= 0.0);
+            if (above) winding += left ? 1 : -1;
+        }
+    }
+    return winding != 0;
+}
+
+// Whether the light is for this object and this place, whatever its strength there.
+bool touches(LightConstants light, vec3 P, uint objectId) {
+    const bool bounded = usesLights(kUsesVolumes) && light.volume != kNoIndex;
+    return (!usesLights(kUsesLinks) || linked(light.linkGroup, objectId)) &&
+           (!bounded || insideVolume(light.volume, (view.worldFromView * vec4(P, 1)).xyz));
+}
+
+// Whether any of its light can arrive: `touches`, within range and cone.
+bool reaches(LightConstants light, vec3 P, uint objectId) {
+    if (!touches(light, P, objectId)) return false;
+    if (light.type == kLightDirectional) return true;
+    const vec3 toLight = light.position - P;
+    const float dist = length(toLight);
+    const bool inCone = light.type != kLightSpot || -dot(toLight, light.direction) > light.cosOuter * dist;
+    return dist < light.range && inCone;
+}
+
 // What arrives at a point: L to the light, E the irradiance on a plane that faces it.
 struct Arrival {
     vec3 L;
@@ -128,7 +175,7 @@ vec3 illuminateMetallicRoughness(ShadingPoint p, vec3 L, vec3 E, vec2 keep) {
 // Radiance that the point sends to the eye from this light.
 vec3 illuminate(ShadingPoint p, LightConstants light) {
     const Arrival arrival = arrivalAt(light, p.s.P);
-    if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return vec3(0);
+    if (!touches(light, p.s.P, p.s.objectId)) return vec3(0);
     vec2 keep = vec2(1);
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {

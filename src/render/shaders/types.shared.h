@@ -21,6 +21,10 @@ struct ViewConstants {
     vec2 extent;           // pixels
     float exposure;        // factor
     uint toneMap;
+    vec4 slack;            // light_volume.shared.h, slackOf
+    vec2 clipScale;        // clipFromView[0][0] and -clipFromView[1][1]
+    float zNear;
+    uint cullLights;       // 0: lights that cover no pixel are drawn all the same
 };
 
 // One object. Set 0, kFrameObjects, indexed by instance.
@@ -77,7 +81,8 @@ struct MaterialConstants {
     uint specularFunction;  // Fb
 };
 
-// One light, in view space. Set 0, kFrameLights. Types as enum LightType.
+// One light. In world space: set 0, kFrameSources. In view space, made anew each frame: set 0, kFrameLights.
+// Types as enum LightType.
 const uint kLightDirectional = 0u;
 const uint kLightPoint = 1u;
 const uint kLightSpot = 2u;
@@ -99,9 +104,19 @@ struct LightConstants {
     uint attenuation;   // row of the function table, or kNoIndex
     uint falloff;       // likewise
     uint linkGroup;     // row of the link table, or kNoIndex
+    uint volume;        // index into the volumes, or kNoIndex
+    uint sceneIndex;    // in Scene::lights; the tables are sorted by shape
 };
 
-// Lights that one draw may loop over. Mesa's software driver (22.3) leaves its loops after 65,535 rounds in all without a
+// A closed mesh that bounds a light, world space. Set 0, kFrameVolumes.
+struct VolumeConstants {
+    uint firstVertex;  // in the volumes' vertices: three per triangle
+    uint vertexCount;
+    vec3 low;          // bounds
+    vec3 high;
+};
+
+// Rounds of loops, over lights and the triangles of their volumes, that one draw may go through. Mesa's software driver (22.3) leaves its loops after 65,535 rounds in all without a
 // word, and GPU drivers end work that runs too long.
 const uint kLightsPerDraw = 32768u;
 struct LightSlice {
@@ -123,7 +138,9 @@ const uint kUsesCurves = 8u;         // an attenuation or falloff function
 const uint kUsesLinks = 16u;
 const uint kUsesContributions = 32u; // a diffuse-only, specular-only or infinite-viewer light
 const uint kUsesUniformLights = 64u; // all lights fit into a uniform buffer, the faster way to read them
-const uint kUniformLights = 862u;    // of 76 bytes in 64 KiB
+const uint kUniformLights = 780u;    // of 84 bytes in 64 KiB
+const uint kUsesVolumes = 128u;      // a light that is bounded by a mesh, and nothing else has seen to that
+const uint kCountsLights = 256u;     // passes add up what they evaluate instead of light (contribution.glsl)
 
 SHARED_END
 #endif

@@ -268,6 +268,7 @@ Json Writer::light(const Light& light) {
         losses.add("lights that are diffuse or specular only written as both", light.name);
     if (light.infiniteViewer) losses.add("infinite viewers of lights left out", light.name);
     if (light.linkGroup != kNone) losses.add("link groups of lights left out", light.name);
+    if (light.volume != kNone) losses.add("volumes of lights left out", light.name);
     return json;
 }
 

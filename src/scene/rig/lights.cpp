@@ -13,10 +13,10 @@
 namespace luciole::rig {
 namespace {
 
-constexpr std::array<std::string_view, 15> kLightKeys{"type",           "position",    "direction", "target",
+constexpr std::array<std::string_view, 16> kLightKeys{"type",           "position",    "direction", "target",
                                                       "color",          "intensity",   "range",     "innerConeAngle",
                                                       "outerConeAngle", "attenuation", "falloff",   "contribution",
-                                                      "infiniteViewer", "linkGroup",   "name"};
+                                                      "infiniteViewer", "linkGroup",   "volume",    "name"};
 
 LightType lightType(const JsonNode& node) { return LightType(node.choice({"directional", "point", "spot"})); }
 
@@ -57,16 +57,13 @@ void setFunction(const JsonNode& entry, std::string_view key, uint32_t& function
     if (const auto v = entry.find(key)) function = v->isNull() ? kNone : functionIndex(*v, scene);
 }
 
-void setLinkGroup(const JsonNode& node, Light& light, const Scene& scene) {
-    if (node.isNull()) {
-        light.linkGroup = kNone;
-        return;
-    }
-    const size_t index = indexOf(scene.linkGroups, node.string());
-    if (index == scene.linkGroups.size()) {
-        node.fail(fmt::format("the name of a link group ({})", someNames(scene.linkGroups)));
-    }
-    light.linkGroup = uint32_t(index);
+/// Index of the element of this name, or kNone for null.
+template <typename Named>
+uint32_t indexOrNone(const JsonNode& node, std::string_view noun, const std::vector<Named>& list) {
+    if (node.isNull()) return kNone;
+    const size_t index = indexOf(list, node.string());
+    if (index == list.size()) node.fail(fmt::format("the name of a {} ({})", noun, someNames(list)));
+    return uint32_t(index);
 }
 
 void setLight(const JsonNode& entry, Light& light, Scene& scene) {
@@ -84,7 +81,8 @@ void setLight(const JsonNode& entry, Light& light, Scene& scene) {
         light.contribution = LightContribution(v->choice({"diffuseAndSpecular", "diffuseOnly", "specularOnly"}));
     }
     if (const auto v = entry.find("infiniteViewer")) light.infiniteViewer = v->boolean();
-    if (const auto v = entry.find("linkGroup")) setLinkGroup(*v, light, scene);
+    if (const auto v = entry.find("linkGroup")) light.linkGroup = indexOrNone(*v, "link group", scene.linkGroups);
+    if (const auto v = entry.find("volume")) light.volume = indexOrNone(*v, "light volume", scene.lightVolumes);
 }
 
 /// An attenuation function is read at distance / range.

@@ -21,21 +21,36 @@ void warnOfSharedIds(const LinkGroup& group, const std::vector<bool>& wanted, Sc
     }
 }
 
-LinkGroup resolve(const JsonNode& entry, Scene& scene) {
-    std::vector<bool> wanted(scene.objects.size(), !entry.find("include"));
-    if (const auto include = entry.find("include")) {
-        for (const size_t i : select(*include, "object", scene.objects)) wanted[i] = true;
+/// Per object whether it is chosen: by `includeKey`'s patterns, or else if `chosen` says so, and not by `excludeKey`'s.
+std::vector<bool> chosenObjects(const JsonNode& entry, std::string_view includeKey, std::string_view excludeKey,
+                                std::vector<bool> chosen, const Scene& scene) {
+    if (const auto include = entry.find(includeKey)) {
+        chosen.assign(scene.objects.size(), false);
+        for (const size_t i : select(*include, "object", scene.objects)) chosen[i] = true;
     }
-    if (const auto exclude = entry.find("exclude")) {
-        for (const size_t i : select(*exclude, "object", scene.objects)) wanted[i] = false;
+    if (const auto exclude = entry.find(excludeKey)) {
+        for (const size_t i : select(*exclude, "object", scene.objects)) chosen[i] = false;
     }
+    return chosen;
+}
+
+/// The same by object ID.
+std::vector<bool> byId(const std::vector<bool>& chosen, const Scene& scene) {
     uint32_t ids = 0;
     for (const Object& object : scene.objects) ids = std::max(ids, object.objectId + 1);
-    LinkGroup group{entry.at("name").string(), std::vector<bool>(ids)};
-    for (size_t i = 0; i < wanted.size(); ++i) {
-        if (wanted[i]) group.litObjects[scene.objects[i].objectId] = true;
+    std::vector<bool> result(ids);
+    for (size_t i = 0; i < chosen.size(); ++i) {
+        if (chosen[i]) result[scene.objects[i].objectId] = true;
     }
-    warnOfSharedIds(group, wanted, scene);
+    return result;
+}
+
+LinkGroup resolve(const JsonNode& entry, Scene& scene) {
+    const std::vector<bool> all(scene.objects.size(), true);
+    const std::vector<bool> lit = chosenObjects(entry, "include", "exclude", all, scene);
+    const std::vector<bool> casting = chosenObjects(entry, "castInclude", "castExclude", lit, scene);
+    LinkGroup group{entry.at("name").string(), byId(lit, scene), byId(casting, scene)};
+    warnOfSharedIds(group, lit, scene);
     return group;
 }
 
@@ -64,7 +79,7 @@ void applyObjects(const JsonNode& list, Scene& scene) {
 
 void applyLinkGroups(const JsonNode& list, Scene& scene) {
     for (const JsonNode& entry : list.elements()) {
-        entry.expectKeys({"name", "include", "exclude"});
+        entry.expectKeys({"name", "include", "exclude", "castInclude", "castExclude"});
         LinkGroup group = resolve(entry, scene);
         const size_t index = indexOf(scene.linkGroups, group.name);
         if (index < scene.linkGroups.size()) {

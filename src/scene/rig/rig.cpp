@@ -38,12 +38,13 @@ Scene copyWithoutBulk(Scene& scene) {
 }
 
 void applySections(const JsonNode& rig, Scene& scene, const LoadLimits& limits) {
-    rig.expectKeys({"$schema", "description", "functions", "objects", "linkGroups", "materials", "lights", "ambience",
-                    "cameras", "exposure"});
+    rig.expectKeys({"$schema", "description", "functions", "objects", "lightVolumes", "linkGroups", "materials", "lights",
+                    "ambience", "cameras", "exposure"});
     if (const auto v = rig.find("$schema")) v->string();
     if (const auto v = rig.find("description")) v->string();
     if (const auto v = rig.find("functions")) rig::applyFunctions(*v, scene);
     if (const auto v = rig.find("objects")) rig::applyObjects(*v, scene);
+    if (const auto v = rig.find("lightVolumes")) rig::applyLightVolumes(*v, scene, limits);
     if (const auto v = rig.find("linkGroups")) rig::applyLinkGroups(*v, scene);
     if (const auto v = rig.find("materials")) rig::applyMaterials(*v, scene);
     if (const auto v = rig.find("lights")) rig::applyLights(*v, scene, limits);

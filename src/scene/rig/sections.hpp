@@ -10,6 +10,7 @@ namespace luciole::rig {
 
 void applyFunctions(const JsonNode& list, Scene& scene);
 void applyObjects(const JsonNode& list, Scene& scene);
+void applyLightVolumes(const JsonNode& list, Scene& scene, const LoadLimits& limits);
 void applyLinkGroups(const JsonNode& list, Scene& scene);
 void applyMaterials(const JsonNode& list, Scene& scene);
 void applyLights(const JsonNode& list, Scene& scene, const LoadLimits& limits);

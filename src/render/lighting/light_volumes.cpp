@@ -1,0 +1,68 @@
+#include "render/lighting/light_volumes.hpp"
+
+#include "render/lighting/light_volume.shared.h"
+
+namespace luciole::render {
+namespace {
+
+using frame::Access;
+using frame::PassContext;
+
+/// Stencil counting (Calver 2003, "Concave Light Volume"; the z-fail method of stencil shadow volumes, Everitt and Kilgard 2002,
+/// "Practical and Robust Stenciled Shadow Volumes"): of the faces behind a surface, as many are front faces as back faces
+/// unless the surface is inside. Works from inside as well, and for any closed mesh that winds less than 256 times.
+void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32_t> constants) {
+    constants[shared::kConstantLights] &= ~shared::kUsesVolumes;  // the stencil says who is inside
+    const SortedLights& lights = scene.lights();
+    const uint32_t first = lights.unbounded + lights.shaped;
+    pass.commands.setStencilTestEnable(true);
+    pass.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
+    for (uint32_t light = first; light < first + lights.meshes; ++light) {
+        const shared::VolumeConstants& volume = scene.volumeOf(lights.sources[light]);
+        pass.bind({.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = true, .constants = constants});
+        pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
+        pass.depth(vk::CompareOp::eGreaterOrEqual, false);
+        pass.stencil(vk::StencilFaceFlagBits::eFront, {.depthFail = vk::StencilOp::eDecrementAndWrap});
+        pass.stencil(vk::StencilFaceFlagBits::eBack, {.depthFail = vk::StencilOp::eIncrementAndWrap});
+        pass.draw(volume.vertexCount, 1, volume.firstVertex, light);
+
+        // A back face lies behind every marked pixel; the first one drawn there lights it and takes the mark away.
+        pass.bind({.vertex = "render/lighting/volume_mesh.vert",
+                   .fragment = "render/lighting/shaped.frag",
+                   .additive = true,
+                   .depthClamp = true,
+                   .constants = constants});
+        pass.commands.setCullMode(vk::CullModeFlagBits::eFront);
+        pass.depth(vk::CompareOp::eAlways, false);
+        pass.stencil(vk::StencilFaceFlagBits::eFrontAndBack,
+                     {.compare = vk::CompareOp::eNotEqual, .pass = vk::StencilOp::eZero});
+        pass.draw(volume.vertexCount, 1, volume.firstVertex, light);
+    }
+    pass.commands.setStencilTestEnable(false);
+}
+
+}  // namespace
+
+frame::PassBuilder addVolumePass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
+                                 bool stencil, std::function<void(PassContext&, const std::vector<uint32_t>&)> drawShaped) {
+    auto pass = graph.addPass(name);
+    const bool marks = stencil || in.scene.lights().meshes > 0;
+    in.readBy(pass, marks ? Access::stencilWrite : Access::depthTest);
+    pass.update(sum, Access::colorBlend)
+        .record([&scene = in.scene, constants = in.constants, drawShaped = std::move(drawShaped)](PassContext& context) {
+            if (scene.lights().unbounded > 0) drawAtEveryPixel(context, scene, constants, 0, scene.lights().unbounded);
+            if (scene.lights().shaped > 0) {
+                context.commands.bindIndexBuffer(scene.volumeIndices(), 0, vk::IndexType::eUint32);
+                drawShaped(context, constants);
+            }
+            if (scene.lights().meshes > 0) drawMeshLights(context, scene, constants);
+        });
+    return pass;
+}
+
+void setFaces(PassContext& pass, bool frontFaces) {
+    pass.commands.setCullMode(frontFaces ? vk::CullModeFlagBits::eBack : vk::CullModeFlagBits::eFront);
+    pass.depth(frontFaces ? vk::CompareOp::eGreaterOrEqual : vk::CompareOp::eLessOrEqual, false);
+}
+
+}  // namespace luciole::render

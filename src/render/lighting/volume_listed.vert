@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/lighting/light_volume.glsl"
+
+layout(set = 1, binding = 8, scalar) readonly buffer List { uint list[]; };
+layout(push_constant, scalar) uniform Push { uint lod; };
+layout(location = 0) flat out uint lightIndex;
+
+// A closed convex mesh around what the light can reach (Calver 2003, "Convex Light Volumes"). The instance is a place in a list of lights.
+void main() {
+    lightIndex = list[gl_InstanceIndex];
+    gl_Position = view.clipFromView * vec4(volumeVertex(enclosingShape(lights[lightIndex]), lod, gl_VertexIndex), 1);
+}

@@ -1,0 +1,12 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "render/shaders/frame.glsl"
+
+layout(location = 0) flat out uint lightIndex;
+
+// A mesh that bounds a light, triangle by triangle.
+void main() {
+    lightIndex = gl_InstanceIndex;
+    const vec3 fromEye = volumeVertices[gl_VertexIndex] - view.worldFromView[3].xyz;
+    gl_Position = view.clipFromView * vec4(mat3(view.viewFromWorld) * fromEye, 1);
+}
