@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -77,7 +78,11 @@ void addSettingOptions(CLI::App& command, SettingOptions& options) {
         const auto read = [&options, name = setting.name, isSwitch = setting.type == "switch"](std::string value) {
             if (isSwitch && value == "true") value = "on";  // CLI11's word for an option without a value
             RenderSettings scratch;                         // so that a bad value is refused before anything is loaded
-            setSetting(scratch, name, value);
+            try {
+                setSetting(scratch, name, value);
+            } catch (const Error& error) {
+                throw Error(error.kind(), fmt::format("--{}", error.what()));  // it begins with the setting's name
+            }
             options.values.emplace_back(name, value);
         };
         const std::string flag = fmt::format("--{}", setting.name);
@@ -99,6 +104,12 @@ RenderSettings resolve(const SettingOptions& options) {
     if (!options.file.empty()) applySettingsText(settings, readText(options.file), options.file);
     for (const auto& [name, value] : options.values) setSetting(settings, name, value);
     return settings;
+}
+
+std::string originOf(const SettingOptions& options, std::string_view name) {
+    const auto isNamed = [&](const auto& value) { return value.first == name; };
+    const bool fromFile = !options.file.empty() && std::ranges::none_of(options.values, isNamed);
+    return fromFile ? fmt::format("{}: /{}", options.file, name) : fmt::format("--{}", name);
 }
 
 void addConsoleOptions(CLI::App& command, Console& console) {

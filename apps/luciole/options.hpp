@@ -30,6 +30,8 @@ struct SettingOptions {
 void addSettingOptions(CLI::App& command, SettingOptions& options);
 /// The defaults, then the settings file, then the command line.
 RenderSettings resolve(const SettingOptions& options);
+/// Where the value of setting `name` comes from, as errors begin: `--NAME`, or `FILE: /NAME`.
+std::string originOf(const SettingOptions& options, std::string_view name);
 
 void addConsoleOptions(CLI::App& command, Console& console);
 

@@ -46,6 +46,16 @@ void addOutputOptions(CLI::App& command, OutputOptions& options) {
         ->allow_extra_args(false)
         ->group("Output");
     addParsed(
+        command, "--view",
+        [&](const std::string& text) {
+            if (text != "picture" && text != "overlap")
+                throw Error(ErrorKind::usage, fmt::format("--view: expected picture or overlap, got \"{}\"", text));
+            options.shown = text == "picture" ? Shown::picture : Shown::overlap;
+        },
+        "overlap: heat maps of the lights evaluated and the lights that reach each pixel [picture]")
+        ->type_name("picture|overlap")
+        ->group("Output");
+    addParsed(
         command, "--bits",
         [&](const std::string& text) {
             if (text != "8" && text != "16")
@@ -93,6 +103,14 @@ void checkOutputs(const OutputOptions& options) {
     if (!options.graphFile.empty()) check(options.graphFile);
 }
 
+std::vector<std::string> neededAovs(const OutputOptions& options) {
+    std::vector<std::string> names = options.aovs;
+    if (options.shown == Shown::overlap)
+        for (const char* name : {"evaluations", "useful-evaluations"})
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+    return names;
+}
+
 void writeOutputs(const OutputOptions& options, const Frame& frame) {
     for (const fs::path file : options.files) {
         const FinishFirst guard;
@@ -100,6 +118,9 @@ void writeOutputs(const OutputOptions& options, const Frame& frame) {
             std::map<std::string, Image> layers = frame.aovs;
             layers[""] = frame.radiance;
             writeExr(file, layers, options.exrType);
+        } else if (options.shown == Shown::overlap) {
+            const Image map = overlapHeatMap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));
+            writePng(file, map, options.bits);
         } else {
             writePng(file, frame.display, options.bits);
         }

@@ -10,12 +10,15 @@
 
 namespace luciole::cli {
 
-/// Where a rendered picture goes.
+enum class Shown { picture, overlap };
+
+/// What is shown of a rendered picture, and where it goes.
 struct OutputOptions {
+    Shown shown = Shown::picture;
     std::vector<std::string> files;  ///< .png or .exr
     int bits = 8;                    ///< of PNG
     ExrType exrType = ExrType::half;
-    std::vector<std::string> aovs;  ///< layers of EXR
+    std::vector<std::string> aovs;  ///< layers of EXR that are asked for by name
     std::string graphFile;          ///< Graphviz; empty: none
 };
 void addOutputOptions(CLI::App& command, OutputOptions& options);
@@ -23,6 +26,9 @@ void addOutputOptions(CLI::App& command, OutputOptions& options);
 /// Finds before the rendering what would otherwise fail after it.
 /// \throws Error(usage) for names and combinations, Error(io) for folders
 void checkOutputs(const OutputOptions& options);
+
+/// The layers to render: those that are asked for by name, and those that are shown.
+std::vector<std::string> neededAovs(const OutputOptions& options);
 
 void writeOutputs(const OutputOptions& options, const Frame& frame);
 

@@ -5,6 +5,7 @@
 #include <luciole/error.hpp>
 #include <luciole/reference.hpp>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "default_light.hpp"
@@ -65,18 +66,20 @@ void addDefaultLightOption(CLI::App& command, RenderOptions& options) {
         ->group("Scene");
 }
 
-void requireTechnique(const std::string& name) {
+void requireTechnique(const SettingOptions& options, const std::string& name) {
     const auto& known = lightingTechniques();
     if (std::any_of(known.begin(), known.end(), [&](const auto& technique) { return technique.name == name; })) return;
     std::string names;
     for (const auto& technique : known) names += fmt::format("{}{}", names.empty() ? "" : ", ", technique.name);
-    throw Error(ErrorKind::usage, fmt::format("lighting: expected one of {}, got \"{}\"", names, name));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: expected one of {}, got \"{}\"", originOf(options, "lighting"), names, name));
 }
 
 Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, const Scene& scene, const View& view) {
+    const std::vector<std::string> aovs = neededAovs(options.output);
     ProgressLine progress(options.console, "rendering:");
     if (settings.lighting == kReference)
-        return renderReference(scene, view, settings, options.output.aovs, [&](double share) {
+        return renderReference(scene, view, settings, aovs, [&](double share) {
             progress.show(share);
             return true;
         });
@@ -85,14 +88,14 @@ Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, 
     Renderer renderer(rendererOptions);
     options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
     renderer.setScene(scene);
-    return renderer.render(view, settings, options.output.aovs);
+    return renderer.render(view, settings, aovs);
 }
 
 /// Everything that can be refused is checked before the scene is read, and again before the frame is rendered.
 void run(const RenderOptions& options) {
     RenderSettings settings = resolve(options.settings);
     settings.measure |= options.json || options.stats;  // whoever asks for the passes wants their times
-    requireTechnique(settings.lighting);
+    requireTechnique(options.settings, settings.lighting);
     if (settings.lighting == kReference && !options.output.graphFile.empty())
         throw Error(ErrorKind::usage, "--dump-graph: the reference has no frame graph");
     checkOutputs(options.output);
@@ -112,8 +115,11 @@ void run(const RenderOptions& options) {
     options.console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
     writeOutputs(options.output, frame);
     options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
-    if (options.stats) say(statisticsTable(frame.stats));
-    if (options.json) fmt::print("{}\n", statisticsJson(frame, settings));
+    std::optional<OverlapCounts> counts;
+    if (options.output.shown == Shown::overlap)
+        counts = countOverlap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));
+    if (options.stats) say(statisticsTable(frame.stats, counts));
+    if (options.json) fmt::print("{}\n", statisticsJson(frame, settings, counts));
 }
 
 }  // namespace
@@ -132,7 +138,8 @@ void addRenderCommand(CLI::App& app) {
         "Examples:\n"
         "  luciole render builtin:hall -o hall.png --size 1920x1080 --stats\n"
         "  luciole render model.glb -o model.png -o model.exr --aov depth,normal\n"
-        "  luciole render model.glb -o truth.png --lighting reference\n");
+        "  luciole render model.glb -o truth.png --lighting reference\n"
+        "  luciole render model.glb -o lights.png --view overlap --stats\n");
     command->callback([options] { run(*options); });
 }
 

@@ -9,9 +9,23 @@ namespace {
 
 double mebibytes(uint64_t bytes) { return double(bytes) / (1 << 20); }
 
+uint64_t sum(const std::vector<PassStats>& passes, uint32_t PassStats::*member) {
+    uint64_t total = 0;
+    for (const PassStats& pass : passes) total += pass.*member;
+    return total;
+}
+
+std::string countsLine(const OverlapCounts& counts) {
+    const auto ratio = [](uint64_t a, uint64_t b) { return b == 0 ? 0 : double(a) / double(b); };
+    return fmt::format("{} lights evaluated at {} pixels, {:.2f} a pixel; {} of them of use ({:.1f} %)\n",
+                       counts.evaluations, counts.coveredPixels, ratio(counts.evaluations, counts.coveredPixels),
+                       counts.usefulEvaluations, 100 * ratio(counts.usefulEvaluations, counts.evaluations));
+}
+
 }  // namespace
 
-std::string statisticsJson(const Frame& frame, const RenderSettings& settings) {
+std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
+                           const std::optional<OverlapCounts>& counts) {
     using Json = nlohmann::ordered_json;
     const FrameStats& stats = frame.stats;
     Json json{{"device", stats.deviceName},      {"driver", stats.driver},      {"width", frame.radiance.width},
@@ -20,22 +34,31 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings) {
     for (const Setting& setting : settingsTable()) json["settings"][std::string(setting.name)] = setting.get(settings);
     json["passes"] = Json::array();
     for (const PassStats& pass : stats.passes)
-        json["passes"].push_back(
-            {{"name", pass.name}, {"ms", pass.ms ? Json(*pass.ms) : Json()}, {"bytes", pass.bytes}});
+        json["passes"].push_back({{"name", pass.name},
+                                  {"ms", pass.ms ? Json(*pass.ms) : Json()},
+                                  {"bytes", pass.bytes},
+                                  {"draws", pass.draws},
+                                  {"stencilDraws", pass.stencilDraws}});
+    if (counts)
+        json["counts"] = {{"evaluations", counts->evaluations},
+                          {"usefulEvaluations", counts->usefulEvaluations},
+                          {"coveredPixels", counts->coveredPixels},
+                          {"draws", sum(stats.passes, &PassStats::draws)},
+                          {"stencilDraws", sum(stats.passes, &PassStats::stencilDraws)}};
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string statisticsTable(const FrameStats& stats) {
-    std::string table = fmt::format("{:<40} {:>10} {:>10}\n", "pass", "ms", "MiB");
+std::string statisticsTable(const FrameStats& stats, const std::optional<OverlapCounts>& counts) {
+    std::string table = fmt::format("{:<40} {:>10} {:>10} {:>8}\n", "pass", "ms", "MiB", "draws");
     for (const PassStats& pass : stats.passes)
-        table += fmt::format("{:<40} {:>10} {:>10.1f}\n", pass.name, pass.ms ? fmt::format("{:.3f}", *pass.ms) : "-",
-                             mebibytes(pass.bytes));
-    return table +
-           fmt::format("{:<40} {:>10.3f} {:>10.1f}\n", "frame, wall clock; peak memory", stats.wallMs,
-                       mebibytes(stats.peakBytes)) +
-           fmt::format("{} lights, {} triangles on {} ({})\n", stats.lights, stats.triangles, stats.deviceName,
-                       stats.driver);
+        table += fmt::format("{:<40} {:>10} {:>10.1f} {:>8}\n", pass.name,
+                             pass.ms ? fmt::format("{:.3f}", *pass.ms) : "-", mebibytes(pass.bytes), pass.draws);
+    table += fmt::format("{:<40} {:>10.3f} {:>10.1f} {:>8}\n", "frame, wall clock; peak memory", stats.wallMs,
+                         mebibytes(stats.peakBytes), sum(stats.passes, &PassStats::draws));
+    if (counts) table += countsLine(*counts);
+    return table + fmt::format("{} lights, {} triangles on {} ({})\n", stats.lights, stats.triangles, stats.deviceName,
+                               stats.driver);
 }
 
 }  // namespace luciole::cli

@@ -1,14 +1,17 @@
 #pragma once
+#include <optional>
 #include <string>
 
+#include <luciole/output.hpp>
 #include <luciole/renderer.hpp>
 
 namespace luciole::cli {
 
-/// For programs: one JSON object.
-std::string statisticsJson(const Frame& frame, const RenderSettings& settings);
+/// For programs: one JSON object. \param counts given if the overlap is shown
+std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
+                           const std::optional<OverlapCounts>& counts);
 
 /// For people: a table of the passes, then the totals.
-std::string statisticsTable(const FrameStats& stats);
+std::string statisticsTable(const FrameStats& stats, const std::optional<OverlapCounts>& counts);
 
 }  // namespace luciole::cli

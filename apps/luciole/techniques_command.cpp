@@ -10,7 +10,7 @@ void addTechniquesCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("techniques", "list the lighting techniques");
     command->callback([] {
         for (const LightingTechniqueInfo& technique : lightingTechniques())
-            fmt::print("{:<15} {}\n{:<15} source: {}\n", technique.name, technique.help, "", technique.source);
+            fmt::print("{:<25} {}\n{:<25} source: {}\n", technique.name, technique.help, "", technique.source);
     });
 }
 

@@ -21,8 +21,7 @@ enum class ExrType { half, float32 };
 /// \param layers layer "" holds R, G, B; layer NAME holds NAME.R, NAME.G, NAME.B or NAME.Y by channel count.
 ///        All of one size. Layers of distances, indices and counts (depth, material, id, light-count, evaluations,
 ///        useful-evaluations, light-fingerprint) are always written as 32-bit float
-void writeExr(const std::filesystem::path& file, const std::map<std::string, Image>& layers,
-              ExrType type = ExrType::half);
+void writeExr(const std::filesystem::path& file, const std::map<std::string, Image>& layers, ExrType type = ExrType::half);
 
 Image readPng(const std::filesystem::path& file);                         ///< [0, 1], 3 or 4 channels
 std::map<std::string, Image> readExr(const std::filesystem::path& file);  ///< as writeExr takes them
@@ -39,9 +38,10 @@ struct OverlapCounts {
 OverlapCounts countOverlap(const Image& evaluations, const Image& useful);
 
 /// Both layers as heat maps side by side, for people: full resolution, one colour scale from 0 to the largest count,
-/// and below it a legend with the largest count, and the mean over the covered pixels, of each. A pixel at which no
-/// light was evaluated is dark grey in both. The left map begins at (0, 0), the right one at ((width + kOverlapGap) /
-/// 2, 0). \return sRGB-encoded, [0, 1], 3 channels; larger than both maps where they are too narrow for the legend
+/// and below it a legend with the largest count and the mean over the covered pixels of each. A pixel at which no light
+/// was evaluated is dark grey in both.
+/// \return sRGB-encoded, [0, 1], 3 channels. The left map's corner is (0, 0), the right one's
+///         ((width + kOverlapGap) / 2, 0); maps that are narrower than their legend are padded
 /// \throws as countOverlap
 Image overlapHeatMap(const Image& evaluations, const Image& useful);
 inline constexpr uint32_t kOverlapGap = 4;  ///< pixels between the maps

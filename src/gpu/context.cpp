@@ -91,6 +91,7 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
     if (!v12.separateDepthStencilLayouts) return "lacks the feature separateDepthStencilLayouts";
     if (!v13.shaderTerminateInvocation) return "lacks the feature shaderTerminateInvocation";
+    if (!v13.maintenance4) return "lacks the feature maintenance4";
     if (!v13.synchronization2) return "lacks the feature synchronization2";
     if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
     // Those of bindings.shared.h; of 4, the least that Vulkan guarantees, no desktop driver is known.
@@ -166,7 +167,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queueFamily, .queueCount = 1, .pQueuePriorities = &priority};
     vk::PhysicalDeviceVulkan13Features v13{
-        .shaderTerminateInvocation = true, .synchronization2 = true, .dynamicRendering = true};
+        .shaderTerminateInvocation = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .separateDepthStencilLayouts = true};
     const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = physical.getFeatures().fullDrawIndexUint32, .depthClamp = true};
     const vk::DeviceCreateInfo info{

@@ -16,9 +16,10 @@ constexpr vec3 rgb8(uint32_t hex) {
     return vec3(float(hex >> 16 & 255), float(hex >> 8 & 255), float(hex & 255)) / 255.0f;
 }
 
-const vec3 kPage = rgb8(0x121212);
+const vec3 kPage = rgb8(0x282828);
 const vec3 kInk = rgb8(0xe0e0e0);
-const vec3 kNone = rgb8(0x303030);  ///< at which no light was evaluated: the only grey of the maps
+const vec3 kNone =
+    rgb8(0x141414);  ///< where no light was evaluated: the only grey of the maps, darker than each colour
 
 /// van der Walt and Smith 2015, viridis, the default colour map of matplotlib 2.0 (CC0): ten of its 256 entries, evenly
 /// spaced, sRGB; the values between them interpolated. Perceptually uniform, and its lightness grows all the way, so

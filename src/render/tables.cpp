@@ -181,6 +181,7 @@ std::vector<uint32_t> volumeIndices() {
             indices.insert(indices.end(), {0, vertex(rings, slice + 1), vertex(rings, slice)});
         }
     }
+    indices.insert(indices.end(), {0, 1, 2});  // kVolumeScreen
     return indices;
 }
 

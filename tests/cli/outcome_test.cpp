@@ -47,12 +47,12 @@ TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, a
         {{"--size", "64"}, "--size"},
         {{"--size", "64x64x64"}, "--size"},
         {{"--size", "99999999999x1"}, "--size"},
-        {{"--exposure", "nan"}, "exposure: expected a number"},
-        {{"--exposure", "1e9"}, "exposure"},
-        {{"--tonemap", "warm"}, "tonemap: expected one of none, reinhard, aces, agx, got \"warm\""},
-        {{"--gbuffer", "huge"}, "gbuffer"},
-        {{"--light-buffer", "rgb8"}, "light-buffer"},
-        {{"--measure=maybe"}, "measure"},
+        {{"--exposure", "nan"}, "error: --exposure: expected a number"},
+        {{"--exposure", "1e9"}, "--exposure"},
+        {{"--tonemap", "warm"}, "error: --tonemap: expected one of none, reinhard, aces, agx, got \"warm\""},
+        {{"--gbuffer", "huge"}, "--gbuffer"},
+        {{"--light-buffer", "rgb8"}, "--light-buffer"},
+        {{"--measure=maybe"}, "--measure: expected on or off"},
         {{"--fov", "180"}, "--fov"},
         {{"--fov", "nan"}, "--fov"},
         {{"--look-at", "0,0,0,1,1"}, "--look-at: expected 6 numbers"},
@@ -61,6 +61,7 @@ TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, a
         {{"--camera", "no such camera"}, "--camera"},
         {{"--camera", "99"}, "--camera"},
         {{"--camera", "-1"}, "--camera"},
+        {{"--view", "heat"}, "--view: expected picture or overlap, got \"heat\""},
         {{"--bits", "10"}, "--bits"},
         {{"--exr-type", "double"}, "--exr-type"},
         {{"--default-light", "on"}, "--default-light"},
@@ -87,8 +88,9 @@ TEST_CASE("cli: wrong arguments end with 2 and a line that names the argument, a
 TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     const TemporaryFolder folder;
     const std::string png = folder / "a.png";
-    CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "magic"}).err,
-              "reference"));
+    const Run magic = failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "magic"});
+    CHECK(has(magic.err, "error: --lighting: expected one of "));
+    CHECK(has(magic.err, "reference"));
     CHECK(has(failing(ErrorKind::usage, {}).err, "command"));
     CHECK(has(failing(ErrorKind::usage, {"paint"}).err, "paint (see luciole --help)"));
     CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials"}).err, "(see luciole render --help)"));
@@ -104,6 +106,11 @@ TEST_CASE("cli: a faulty settings file ends with 2, a missing one with 4") {
     const std::string settings = folder / "settings.json";
     writeText(settings, R"({"tonemap": "warm"})");
     CHECK(has(failing(ErrorKind::usage, renderTo(folder / "a.png", {"--settings", settings})).err, "/tonemap"));
+    const std::string lighting = folder / "lighting.json";
+    writeText(lighting, R"({"lighting": "magic"})");
+    const Run magic =
+        failing(ErrorKind::usage, {"render", "builtin:materials", "-o", folder / "a.png", "--settings", lighting});
+    CHECK(has(magic.err, "lighting.json: /lighting: expected one of "));
     CHECK(has(failing(ErrorKind::io, renderTo(folder / "a.png", {"--settings", folder / "none.json"})).err,
               "No such file"));
     CHECK(has(failing(ErrorKind::io, renderTo(folder / "a.png", {"--settings", folder.path()})).err, "Is a directory"));

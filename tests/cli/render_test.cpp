@@ -77,6 +77,39 @@ TEST_CASE("cli: one run writes several pictures, and EXR holds the radiance and 
     CHECK(readExr(exr).at("").data == layers.at("").data);  // exposure belongs to the picture, not to radiance
 }
 
+TEST_CASE("cli: --view overlap writes the heat map to PNG, and to EXR the radiance and the exact counts") {
+    const TemporaryFolder folder;
+    const std::string scene = "builtin:fireflies?lights=50", png = folder / "a.png", exr = folder / "a.exr";
+    const Run run = render(scene, {"--view", "overlap", "--size", "24x18", "-o", png, "-o", exr, "--json", "--stats"});
+    const auto layers = readExr(exr);
+    REQUIRE(layers.size() == 3);
+    const Image &evaluations = layers.at("evaluations"), &useful = layers.at("useful-evaluations");
+    CHECK(*std::max_element(useful.data.begin(), useful.data.end()) > 1);  // there is an overlap to show
+
+    const Image map = readPng(png), expected = overlapHeatMap(evaluations, useful);
+    REQUIRE(map.data.size() == expected.data.size());
+    for (size_t i = 0; i < map.data.size(); ++i)
+        CHECK(std::abs(map.data[i] - expected.data[i]) < 0.51f / 255);  // rounded to nearest
+
+    const OverlapCounts sums = countOverlap(evaluations, useful);
+    const auto counts = nlohmann::json::parse(run.out)["counts"];
+    CHECK(counts["evaluations"] == sums.evaluations);
+    CHECK(counts["usefulEvaluations"] == sums.usefulEvaluations);
+    CHECK(counts["coveredPixels"] == sums.coveredPixels);
+    CHECK(counts["draws"] == 0);  // the reference draws nothing
+    CHECK(counts["stencilDraws"] == 0);
+    CHECK(has(run.err, std::to_string(sums.evaluations) + " lights evaluated at"));
+
+    // The same EXR layers by name, without the view.
+    render(scene, {"-q", "--size", "24x18", "-o", exr, "--aov", "evaluations,useful-evaluations"});
+    CHECK(readExr(exr).at("evaluations").data == evaluations.data);
+    // A layer that is asked for by name too is there once, and --view picture is the default.
+    render(scene, {"-q", "--view", "overlap", "--size", "24x18", "-o", exr, "--aov", "evaluations,depth"});
+    CHECK(readExr(exr).size() == 4);
+    render(scene, {"-q", "--view", "picture", "--size", "24x18", "-o", png});
+    CHECK(readPng(png).width == 24);
+}
+
 TEST_CASE("cli: two runs give the same bytes") {
     const TemporaryFolder folder;
     for (const std::string name : {"a", "b"})
@@ -158,5 +191,6 @@ TEST_CASE("cli: with a device, the default technique renders the picture and the
     for (const auto& pass : passes) {
         CHECK(pass["ms"].get<double>() > 0);
         CHECK(pass["bytes"].get<uint64_t>() > 0);
+        CHECK(pass["stencilDraws"].get<uint64_t>() <= pass["draws"].get<uint64_t>());
     }
 }

@@ -98,6 +98,7 @@ TEST_CASE("cli: --json prints statistics, and nothing else, on standard output")
     CHECK(json["triangles"] == triangleCount(loadScene("builtin:hall?lights=20")));
     for (const char* key : {"device", "driver", "wallMs", "peakBytes", "passes", "settings"})
         CHECK(json.contains(key));
+    CHECK_FALSE(json.contains("counts"));  // only where they are shown
 }
 
 TEST_CASE("cli: the command line wins over the settings file, and the file over the defaults") {

@@ -25,6 +25,11 @@ luciole::Scene sceneToLight() {
     scene.meshes.push_back(
         {"triangle", {{.position = {0, 0, 0}}, {.position = {1, 0, 0}}, {.position = {0, 1, 0}}}, {0, 1, 2}});
     scene.objects.push_back({.name = "wall"});
+    // A closed one, for light volumes.
+    scene.meshes.push_back({"tetrahedron",
+                            {{.position = {0, 0, 0}}, {.position = {1, 0, 0}}, {.position = {0, 1, 0}}, {.position = {0, 0, 1}}},
+                            {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}});
+    scene.objects.push_back({.name = "helper", .mesh = 1});
     scene.lights.push_back({.name = "lamp"});
     scene.cameras.push_back({.name = "camera"});
     return scene;

@@ -89,8 +89,8 @@ TEST_CASE("heat map: both maps share one scale; no lights are grey, lights that 
 TEST_CASE("heat map: more lights are lighter, in a grey print too") {
     constexpr uint32_t kCount = 256;
     Image ramp(kCount, 1, 1);
-    for (uint32_t i = 0; i < kCount; ++i) ramp.at(i, 0, 0) = float(i + 1);
-    const Image page = overlapHeatMap(ramp, ramp);
+    for (uint32_t i = 0; i < kCount; ++i) ramp.at(i, 0, 0) = float(i);
+    const Image page = overlapHeatMap(ramp, ramp);  // begins with the grey of no light at all
     for (uint32_t i = 1; i < kCount; ++i) CHECK(luminance(colorAt(page, i, 0)) > luminance(colorAt(page, i - 1, 0)));
 }
 

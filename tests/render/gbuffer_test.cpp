@@ -49,7 +49,7 @@ Errors measure(ValidatedRenderer& renderer, GBufferLayout layout, float distance
 }
 
 uint32_t bytesPerPixel(GBufferLayout layout) {
-    uint32_t bytes = gpu::bytesPerTexel(render::kDepthFormat);
+    uint32_t bytes = gpu::bytesPerTexel(vk::Format::eD32Sfloat);
     for (const auto format : render::targetFormats(layout)) bytes += gpu::bytesPerTexel(format);
     return bytes;
 }

@@ -22,6 +22,8 @@ std::string refusal(const std::string& rig, ErrorKind kind = ErrorKind::scene) {
         const Scene before = plainScene();
         CHECK(scene.lights.size() == before.lights.size());
         CHECK(scene.functions.empty());
+        CHECK(scene.objects.size() == 3);
+        CHECK(scene.lightVolumes.empty());
         CHECK(scene.meshes.size() == 1);
         CHECK(scene.texels.size() == 1);
         CHECK(scene.textures.size() == 1);
@@ -134,6 +136,35 @@ TEST_CASE("rig: every fault is refused with its path, and the scene stays as it 
          "test.json: /objects/0/objectId: expected a whole number in [0, 65535], got 65536"},
         {R"({"linkGroups": [{"name": "g", "include": "wall*"}]})",
          "test.json: /linkGroups/0/include: pattern \"wall*\" matches no object; there are: \"curtain left\", "},
+        {R"({"linkGroups": [{"name": "g", "castExclude": ["floor", "wall*"]}]})",
+         "test.json: /linkGroups/0/castExclude/1: pattern \"wall*\" matches no object; there are: \"curtain left\", "},
+        {R"({"lightVolumes": [{"box": {"low": [0, 0, 0], "high": [1, 1, 1]}}]})",
+         "test.json: /lightVolumes/0: expected a key \"name\", got none"},
+        {R"({"lightVolumes": [{"name": "v"}]})",
+         "test.json: /lightVolumes/0: expected exactly one of object, box and mesh, got 0"},
+        {R"({"lightVolumes": [{"name": "v", "object": "floor", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}]})",
+         "test.json: /lightVolumes/0: expected exactly one of object, box and mesh, got 2"},
+        {R"({"lightVolumes": [{"name": "v", "object": "floor*"}, {"name": "w", "object": "floor"}]})",
+         "test.json: /lightVolumes/0/object: indices: expected a closed surface, triangles turned alike (each edge run "
+         "through as often one way as the other), got 3 open edges, one of them from (0, 0, 0) to (4, 0, 0)"},
+        {R"({"lightVolumes": [{"name": "v", "object": "wall"}]})",
+         "test.json: /lightVolumes/0/object: pattern \"wall\" matches no object"},
+        {R"({"lightVolumes": [{"name": "v", "box": {"low": [0, 1, 0], "high": [1, 1, 1]}}]})",
+         "test.json: /lightVolumes/0/box: expected low < high on each axis, got 1 and 1 along y"},
+        {R"({"lightVolumes": [{"name": "v", "box": {"low": [0, 1, 0]}}]})",
+         "test.json: /lightVolumes/0/box: expected a key \"high\", got none"},
+        {R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [], "indices": [[0, 0, 0]]}}]})",
+         "test.json: /lightVolumes/0/mesh/positions: expected at least one position"},
+        {R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": []}}]})",
+         "test.json: /lightVolumes/0/mesh/indices: expected at least one triangle"},
+        {R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": [[0, 0]]}}]})",
+         "test.json: /lightVolumes/0/mesh/indices/0: expected three indices, got an array of 2"},
+        {R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": [[0, 0, 1]]}}]})",
+         "test.json: /lightVolumes/0/mesh/indices/0/2: expected a whole number in [0, 0], got 1"},
+        {R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "indices": [[0, 1, 2]]}}]})",
+         "test.json: /lightVolumes/0/mesh: indices: expected a closed surface"},
+        {R"({"lights": [{"match": "*", "volume": "v"}]})",
+         "test.json: /lights/0/volume: expected the name of a light volume (none), got \"v\""},
         {R"({"materials": [{"baseColor": [1, 1, 1]}]})", "test.json: /materials/0: expected a key \"name\", got none"},
         {R"({"materials": [{"match": "stone", "assignTo": "floor"}]})",
          "test.json: /materials/0/assignTo: unknown key"},
@@ -182,6 +213,30 @@ TEST_CASE("rig: limits on nesting, array sizes and numbers of lights and functio
     CHECK(refusal(R"({"lights": [{"type": "point", "scatter": {"count": 4000000000, "box": "bounds"}}]})",
                   ErrorKind::limit) ==
           "test.json: /lights/0: expected at most 1000 lights in the scene, got 4000000002");
+
+    std::string triangles = "[0, 0, 0]";
+    for (int i = 0; i < 16384; ++i) triangles += ", [0, 0, 0]";
+    Scene walled = plainScene();
+    try {
+        applyRigText(walled,
+                     R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": [)" + triangles +
+                         "]}}]}",
+                     "test.json");
+        FAIL_CHECK("accepted");
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::limit);
+        CHECK(std::string(error.what()) ==
+              "test.json: /lightVolumes/0/mesh/indices: expected at most 16384 triangles in a light volume, got 16385");
+    }
+    try {
+        applyRigText(walled, R"({"lightVolumes": [{"name": "v", "object": "floor"}]})", "test.json",
+                     LoadLimits{.maxVertices = 2});
+        FAIL_CHECK("accepted");
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::limit);
+        CHECK(std::string(error.what()) ==
+              "test.json: /lightVolumes/0/object: expected at most 2 vertices in the scene's light volumes, got 3");
+    }
 
     Json functions = Json::array();
     for (int i = 0; i < 1025; ++i) functions.push_back({{"name", fmt::format("f{}", i)}, {"kind", "lambert"}});

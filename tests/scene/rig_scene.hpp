@@ -35,7 +35,11 @@ inline const std::string kFullRig = R"({
   "functions": [{"name": "half", "kind": "wrap", "parameter": 0.5},
                 {"name": "curve", "kind": "sampled", "samples": [[0, 0], [0.25, 1], [1, 1]]}],
   "objects": [{"match": "curtain*", "objectId": 7}],
-  "linkGroups": [{"name": "cloth", "include": "curtain*", "exclude": ["floor"]}],
+  "lightVolumes": [
+    {"name": "room", "box": {"low": [-1, -2, -3], "high": [4, 5, 6]}},
+    {"name": "spike", "mesh": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+     "indices": [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]}}],
+  "linkGroups": [{"name": "cloth", "include": "curtain*", "exclude": ["floor"], "castInclude": ["*"], "castExclude": "curtain left"}],
   "materials": [
     {"match": "red*", "equation": "shaped", "diffuseFunction": "half", "specularFunction": {"kind": "toon", "parameter": 2},
      "kd": 0.5, "ks": 0.25, "specularColor": [1, 0.5, 0], "specularBlend": 0.75, "kAmbient": [0.1, 0.2, 0.3], "kEmissive": 2},
@@ -45,8 +49,8 @@ inline const std::string kFullRig = R"({
   "lights": [
     {"name": "key", "type": "spot", "position": [1, 2, 3], "target": [1, 0, 3], "color": [1, 0.5, 0.25], "intensity": 8,
      "range": 5, "innerConeAngle": 30, "outerConeAngle": 60, "attenuation": "linear", "falloff": "lambert",
-     "contribution": "specularOnly", "linkGroup": "cloth"},
-    {"name": "moon", "type": "directional", "direction": [0, -2, 0], "infiniteViewer": true},
+     "contribution": "specularOnly", "linkGroup": "cloth", "volume": "spike"},
+    {"name": "moon", "type": "directional", "direction": [0, -2, 0], "infiniteViewer": true, "volume": "room"},
     {"name": "spark", "type": "point", "scatter": {"count": 4, "seed": 9, "box": "bounds", "jitter": 0.5, "hue": [30, 60],
      "saturation": 0.5, "intensity": [1, 2], "range": [3, 4]}},
     {"match": "lamp*", "intensityScale": 0.5}, {"remove": "sun"}],

@@ -27,6 +27,31 @@ void checkColor(vec3 color, vec3 expected) {
     for (int i = 0; i < 3; ++i) CHECK(color[i] == Approx(expected[i]).epsilon(1e-6));  // float rounding
 }
 
+/// Six times the signed volume: positive for a closed surface that is oriented outwards.
+double sixfoldVolume(const LightVolume& volume) {
+    double sum = 0;
+    for (size_t i = 0; i < volume.indices.size(); i += 3) {
+        const auto corner = [&](size_t k) { return dvec3(volume.positionsWorld[volume.indices[i + k]]); };
+        sum += dot(corner(0), cross(corner(1), corner(2)));
+    }
+    return sum;
+}
+
+/// Between other objects two helper meshes, tetrahedra with an edge of 1 each, the second one mirrored; objects differ by ID.
+Scene sceneWithHelpers() {
+    Scene scene = plainScene();
+    Mesh helper{.name = "helper", .vertices = std::vector<Vertex>(4), .indices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
+    for (int axis = 0; axis < 3; ++axis) helper.vertices[size_t(axis) + 1].position[axis] = 1;
+    scene.meshes.push_back(helper);
+    const auto at = [](vec3 place, float x) {
+        return mat4(x, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, place.x, place.y, place.z, 1);
+    };
+    scene.objects.insert(scene.objects.begin() + 1,
+                         {.name = "volume a", .mesh = 1, .worldFromObject = at({10, 0, 0}, 2), .objectId = 3});
+    scene.objects.push_back({.name = "volume b", .mesh = 1, .worldFromObject = at({20, 0, 0}, -1), .objectId = 4});
+    return scene;
+}
+
 /// The first block of JSON in docs/rig.md.
 std::string docsExample() {
     std::ifstream stream(std::filesystem::path(LUCIOLE_SOURCE_DIR) / "docs" / "rig.md");
@@ -84,9 +109,11 @@ TEST_CASE("rig: every key of a spot, a directional and scattered lights arrives"
     CHECK(scene.functions[key.falloff].kind == Function::Kind::lambert);
     CHECK(key.contribution == LightContribution::specularOnly);
     CHECK(scene.linkGroups[key.linkGroup].name == "cloth");
+    CHECK(scene.lightVolumes[key.volume].name == "spike");
 
     CHECK(scene.lights[2].directionWorld == vec3(0, -1, 0));
     CHECK(scene.lights[2].infiniteViewer);
+    CHECK(scene.lightVolumes[scene.lights[2].volume].name == "room");
     CHECK(scene.lights[2].color == vec3(1));
 
     for (size_t i = 3; i < 7; ++i) {
@@ -148,6 +175,8 @@ TEST_CASE("rig: functions, object IDs, link groups, ambience, cameras and exposu
     CHECK(scene.objects[2].objectId == 2);
     REQUIRE(scene.linkGroups.size() == 1);
     CHECK(scene.linkGroups[0].litObjects == std::vector<bool>{false, false, false, false, false, false, false, true});
+    // The curtains share an ID: the right one casts, and with it the left one.
+    CHECK(scene.linkGroups[0].castingObjects == std::vector<bool>{false, false, true, false, false, false, false, true});
     CHECK(scene.ambience.sky == vec3(0.1f, 0.2f, 0.3f));
     CHECK(scene.ambience.ground == vec3(0));
     CHECK(scene.ambience.upWorld == vec3(0, 1, 0));
@@ -190,12 +219,13 @@ TEST_CASE("rig: changing colour keeps the intensity, changing intensity keeps th
 TEST_CASE("rig: null brings back what glTF does") {
     Scene scene = rigged(kFullRig);
     scene = rigged(
-        R"({"lights": [{"match": "key", "attenuation": null, "falloff": null, "range": null, "linkGroup": null}]})",
+        R"({"lights": [{"match": "key", "attenuation": null, "falloff": null, "range": null, "linkGroup": null, "volume": null}]})",
         scene);
     CHECK(scene.lights[1].attenuation == kNone);
     CHECK(scene.lights[1].falloff == kNone);
     CHECK(scene.lights[1].range == kInfinity);
     CHECK(scene.lights[1].linkGroup == kNone);
+    CHECK(scene.lights[1].volume == kNone);
 }
 
 TEST_CASE("rig: built-in functions need no declaration and join the scene once") {
@@ -240,6 +270,70 @@ TEST_CASE("rig: a material that becomes shaped is Lambert with a Blinn-Phong hig
 TEST_CASE("rig: one channel of samples cascades where the shape is above zero") {
     const Scene scene = rigged(R"({"functions": [{"name": "f", "kind": "sampled", "samples": [0, 0, 0.5, 1]}]})");
     CHECK(scene.functions[0].samples == std::vector<vec2>{{0, 0}, {0, 0}, {0.5f, 1}, {1, 1}});
+}
+
+TEST_CASE("rig: a box and a mesh become light volumes, oriented outwards") {
+    const Scene scene = rigged(kFullRig);
+    REQUIRE(scene.lightVolumes.size() == 2);
+    CHECK(scene.lightVolumes[0].name == "room");
+    CHECK(scene.lightVolumes[0].positionsWorld.size() == 8);
+    CHECK(sixfoldVolume(scene.lightVolumes[0]) == 6 * 5 * 7 * 9);
+    CHECK(scene.lightVolumes[1].positionsWorld == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    CHECK(scene.lightVolumes[1].indices == std::vector<uint32_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3});
+}
+
+TEST_CASE("rig: objects become a light volume in world space and leave the picture; the others stay as they were") {
+    const Scene before = sceneWithHelpers();
+    const Scene scene = rigged(R"({"lightVolumes": [{"name": "a", "object": "volume a"}],
+        "linkGroups": [{"name": "floor only", "include": "floor"}],
+        "lights": [{"match": "*", "volume": "a", "linkGroup": "floor only"}]})",
+                               before);
+    REQUIRE(scene.objects.size() == 4);
+    size_t next = 0;
+    for (const Object& object : before.objects) {
+        if (object.name == "volume a") continue;
+        CHECK(scene.objects[next].name == object.name);
+        CHECK(scene.objects[next].mesh == object.mesh);
+        CHECK(scene.objects[next].material == object.material);
+        CHECK(scene.objects[next++].objectId == object.objectId);
+    }
+    CHECK(scene.linkGroups[0].litObjects == std::vector<bool>{false, false, true, false, false});
+    CHECK(scene.lights[0].volume == 0);
+    CHECK(scene.lights[1].volume == 0);
+    REQUIRE(scene.lightVolumes.size() == 1);
+    CHECK(scene.lightVolumes[0].positionsWorld == std::vector<vec3>{{10, 0, 0}, {12, 0, 0}, {10, 1, 0}, {10, 0, 1}});
+    CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("rig: several objects make one light volume, a mirrored one is turned so that front faces stay outside") {
+    const Scene scene = rigged(R"({"lightVolumes": [{"name": "both", "object": ["volume b", "*a"]}]})", sceneWithHelpers());
+    CHECK(scene.objects.size() == 3);
+    REQUIRE(scene.lightVolumes.size() == 1);
+    CHECK(scene.lightVolumes[0].indices.size() == 24);
+    CHECK(sixfoldVolume(scene.lightVolumes[0]) == 3);  // of 2 and 1; untreated, 2 - 1
+}
+
+TEST_CASE("rig: a light volume of a name that exists is replaced in place") {
+    const Scene scene = rigged(R"({"lightVolumes": [{"name": "spike", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}]})",
+                               rigged(kFullRig));
+    REQUIRE(scene.lightVolumes.size() == 2);
+    CHECK(scene.lightVolumes[1].positionsWorld.size() == 8);
+    CHECK(scene.lights[1].volume == 1);
+}
+
+TEST_CASE("rig: the objects that cast shadows are those that are lit unless the group says otherwise") {
+    const auto group = [](const std::string& keys) {
+        return rigged(R"({"linkGroups": [{"name": "g")" + keys + "}]}").linkGroups[0];
+    };
+    using Ids = std::vector<bool>;
+    CHECK(group("").castingObjects == Ids{true, true, true});
+    CHECK(group(R"(, "exclude": "floor")").castingObjects == Ids{true, true, false});
+    CHECK(group(R"(, "exclude": "floor", "castExclude": "*left")").castingObjects == Ids{false, true, false});
+    CHECK(group(R"(, "exclude": "floor", "castInclude": ["floor", "*left"])").castingObjects == Ids{true, false, true});
+    CHECK(group(R"(, "include": "floor", "castInclude": "*", "castExclude": "floor")").castingObjects ==
+          Ids{true, true, false});
+    CHECK(group(R"(, "include": "floor", "castInclude": "*", "castExclude": "floor")").litObjects ==
+          Ids{false, false, true});
 }
 
 TEST_CASE("rig: later rigs replace functions, groups, materials and cameras of the same name in place") {
@@ -375,6 +469,13 @@ TEST_CASE("rig: the schema accepts the examples and refuses what the reader refu
         R"({"ambience": {"ambient": [1, 1, 1], "sky": [1, 1, 1]}})",
         R"({"cameras": [{"name": "c", "eye": [0, 0, 0]}]})",
         R"({"cameras": [{"name": "door", "fov": 180}]})",
+        R"({"lightVolumes": [{"name": "v"}]})",
+        R"({"lightVolumes": [{"object": "floor"}]})",
+        R"({"lightVolumes": [{"name": "v", "object": "floor", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}]})",
+        R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": [[0, 0]]}}]})",
+        R"({"lightVolumes": [{"name": "v", "mesh": {"positions": [[0, 0, 0]], "indices": []}}]})",
+        R"({"lights": [{"match": "*", "volume": 3}]})",
+        R"({"linkGroups": [{"name": "g", "castInclude": []}]})",
     };
     int number = 0;
     for (const char* rig : bad) std::ofstream(folder / "bad" / fmt::format("{}.json", number++)) << rig;
@@ -397,6 +498,23 @@ sys.exit(len(faults) > 0)
         fmt::format("python3 '{}' '{}' '{}'", (folder / "check.py").string(), root.string(), folder.string());
     CHECK(std::system(command.c_str()) == 0);
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("rig: the example of light volumes applies to the hall, and each volume has a light") {
+    Scene hall = loadScene("builtin:hall");
+    const size_t lights = hall.lights.size();
+    applyRig(hall, std::filesystem::path(LUCIOLE_SOURCE_DIR) / "examples" / "rigs" / "volumes.json");
+    CHECK(hall.lights.size() > lights);
+    REQUIRE(hall.lightVolumes.size() >= 2);
+    const Bounds bounds = boundsOf(hall);
+    for (uint32_t i = 0; i < hall.lightVolumes.size(); ++i) {
+        CHECK(std::any_of(hall.lights.begin(), hall.lights.end(), [&](const Light& light) { return light.volume == i; }));
+        CHECK(sixfoldVolume(hall.lightVolumes[i]) > 0);
+        for (const vec3& position : hall.lightVolumes[i].positionsWorld) {
+            CHECK(glm::all(glm::greaterThan(position, bounds.low - 1.0f)));
+            CHECK(glm::all(glm::lessThan(position, bounds.high + 1.0f)));
+        }
+    }
 }
 
 TEST_CASE("rig: the examples light the scenes that they were made for") {

@@ -10,6 +10,13 @@ LightShape enclosingShape(LightConstants light) {
     return inflate(shape, slackOf(view, shape));
 }
 
+// Vertex of the mesh of a light, clip space.
+vec4 volumePosition(LightConstants light, uint lod, uint vertex) {
+    // Not at depth 0, which is where nothing is.
+    if (lod == kVolumeScreen) return vec4(vec2(vertex & 1u, vertex >> 1u) * 4.0 - 1.0, 1e-30, 1);
+    return view.clipFromView * vec4(volumeVertex(enclosingShape(light), lod, vertex), 1);
+}
+
 // A ball around all that the light can reach. Not for unbounded lights.
 vec4 enclosingBall(LightConstants light) {
     if (light.volume == kNoIndex) return boundingBall(enclosingShape(light));

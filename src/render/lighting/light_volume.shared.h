@@ -106,6 +106,10 @@ SHARED_FN bool coversPixel(vec4 bounds, vec2 extent) {
 
 // Levels of detail of the meshes: 0 is a box, the others have slices around the axis and rings from its end to the rim.
 const uint kVolumeLods = 5u;
+// One level more, for shapes whose far-off corners a rasterizer no longer resolves: a triangle over the whole picture, infinitely
+// far away, drawn as a back face.
+const uint kVolumeScreen = kVolumeLods;
+const float kLargestRadius = 8192.0f;  // pixels; a radius of 12,750 was seen to lose a pixel on Mesa's software driver
 SHARED_FN uint volumeSlices(uint lod) { return lod < 2u ? 4u : 4u * lod; }
 SHARED_FN uint volumeRings(uint lod) { return lod < 3u ? 4u : 2u * lod; }
 
@@ -115,7 +119,8 @@ SHARED_FN uint volumeLod(float radiusPixels) {
     if (radiusPixels < 10.0f) return 0u;
     if (radiusPixels < 20.0f) return 1u;
     if (radiusPixels < 50.0f) return 2u;
-    return radiusPixels < 100.0f ? 3u : 4u;
+    if (radiusPixels < 100.0f) return 3u;
+    return radiusPixels < kLargestRadius ? 4u : kVolumeScreen;
 }
 
 // Radius, in pixels, of a ball's projection, about.
@@ -201,12 +206,15 @@ SHARED_FN VolumeDraw volumeDraw(ViewConstants view, LightConstants light) {
     draw.visible = view.cullLights == 0u || coversPixel(projectedBounds(view, ball), view.extent);
     draw.lod = volumeLod(radiusInPixels(view, ball));
     const vec4 around = meshBall(shape, draw.lod);
-    draw.frontFaces = view.orthographic != 0u || -around.z - around.w > view.zNear;
+    draw.frontFaces = draw.lod != kVolumeScreen && (view.orthographic != 0u || -around.z - around.w > view.zNear);
     return draw;
 }
 
 // Where the meshes of the levels lie in the buffer of indices (volumeIndices in light_volumes.cpp).
-SHARED_FN uint volumeIndexCount(uint lod) { return lod == 0u ? 36u : 6u * volumeSlices(lod) * volumeRings(lod); }
+SHARED_FN uint volumeIndexCount(uint lod) {
+    if (lod == kVolumeScreen) return 3u;
+    return lod == 0u ? 36u : 6u * volumeSlices(lod) * volumeRings(lod);
+}
 SHARED_FN uint volumeFirstIndex(uint lod) {
     uint first = 0u;
     for (uint i = 0u; i < lod; ++i) first += volumeIndexCount(i);
@@ -215,7 +223,7 @@ SHARED_FN uint volumeFirstIndex(uint lod) {
 
 // volume_lists.comp: lights by how their mesh is drawn, class = lod * 2 + front faces.
 const uint kVolumeGroup = 64u;
-const uint kVolumeClasses = 10u;  // 2 * kVolumeLods
+const uint kVolumeClasses = 2u * (kVolumeLods + 1u);
 struct IndexedDraw {              // VkDrawIndexedIndirectCommand
     uint indexCount;
     uint instanceCount;

@@ -19,20 +19,19 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32
     pass.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
     for (uint32_t light = first; light < first + lights.meshes; ++light) {
         const shared::VolumeConstants& volume = scene.volumeOf(lights.sources[light]);
-        pass.bind({.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = true, .constants = constants});
+        pass.bind({.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = clampsDepth(scene), .constants = constants});
         pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
         pass.depth(vk::CompareOp::eGreaterOrEqual, false);
         pass.stencil(vk::StencilFaceFlagBits::eFront, {.depthFail = vk::StencilOp::eDecrementAndWrap});
         pass.stencil(vk::StencilFaceFlagBits::eBack, {.depthFail = vk::StencilOp::eIncrementAndWrap});
         pass.draw(volume.vertexCount, 1, volume.firstVertex, light);
 
-        // A back face lies behind every marked pixel; the first one drawn there lights it and takes the mark away.
+        // Some face lies behind every marked pixel; the first one drawn there lights it and takes the mark away.
         pass.bind({.vertex = "render/lighting/volume_mesh.vert",
                    .fragment = "render/lighting/shaped.frag",
                    .additive = true,
-                   .depthClamp = true,
+                   .depthClamp = clampsDepth(scene),
                    .constants = constants});
-        pass.commands.setCullMode(vk::CullModeFlagBits::eFront);
         pass.depth(vk::CompareOp::eAlways, false);
         pass.stencil(vk::StencilFaceFlagBits::eFrontAndBack,
                      {.compare = vk::CompareOp::eNotEqual, .pass = vk::StencilOp::eZero});
@@ -59,6 +58,8 @@ frame::PassBuilder addVolumePass(frame::FrameGraph& graph, const LightingInputs&
         });
     return pass;
 }
+
+bool clampsDepth(const GpuScene& scene) { return scene.view().orthographic != 0; }
 
 void setFaces(PassContext& pass, bool frontFaces) {
     pass.commands.setCullMode(frontFaces ? vk::CullModeFlagBits::eBack : vk::CullModeFlagBits::eFront);

@@ -10,6 +10,10 @@ namespace luciole::render {
 frame::PassBuilder addVolumePass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
                                  bool stencil, std::function<void(frame::PassContext&, const std::vector<uint32_t>&)> drawShaped);
 
+/// Whether volumes are drawn with depth clamped. In perspective nothing that matters is clipped: there is no far plane, and no surface
+/// before the near plane. An orthographic view has both, and may see the far side of a volume only behind them.
+bool clampsDepth(const GpuScene& scene);
+
 /// Faces to draw of a convex mesh, and their depth test: front faces are drawn where they lie before the surface, back faces
 /// where they lie behind it.
 void setFaces(frame::PassContext& pass, bool frontFaces);

@@ -12,7 +12,8 @@ void main() {
     const vec4 bounds = clamp(projectedBounds(view, ball), vec4(-1), vec4(1));
     const uint corner = uint[](0u, 1u, 2u, 2u, 1u, 3u)[gl_VertexIndex];
     const vec2 position = mix(bounds.xy, bounds.zw, vec2(corner & 1u, corner >> 1u));
-    const vec4 closest = view.clipFromView * vec4(0, 0, min(ball.z + ball.w, -view.zNear), 1);
-    gl_Position = vec4(position, min(closest.z / closest.w, 1.0), 1);
+    const vec4 closest = view.clipFromView * vec4(0, 0, ball.z + ball.w, 1);
+    const bool touchesNear = ball.z + ball.w >= -view.zNear;
+    gl_Position = vec4(position, touchesNear ? 1.0 : clamp(closest.z / closest.w, 0.0, 1.0), 1);
     if (view.cullLights != 0u && !coversPixel(bounds, view.extent)) gl_Position = vec4(0, 0, 0, 1);  // all corners in one place: nothing
 }

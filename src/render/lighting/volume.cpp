@@ -20,8 +20,12 @@ void forEachVolume(const GpuScene& scene, const Draw& draw) {
     }
 }
 
-void bindVolume(PassContext& pass, const char* fragment, const std::vector<uint32_t>& constants) {
-    pass.bind({.vertex = "render/lighting/volume.vert", .fragment = fragment, .additive = true, .depthClamp = true, .constants = constants});
+void bindVolume(PassContext& pass, const GpuScene& scene, const char* fragment, const std::vector<uint32_t>& constants) {
+    pass.bind({.vertex = "render/lighting/volume.vert",
+               .fragment = fragment,
+               .additive = true,
+               .depthClamp = clampsDepth(scene),
+               .constants = constants});
 }
 
 void drawVolume(PassContext& pass, uint32_t light, uint32_t lod) {
@@ -43,12 +47,12 @@ void drawStencilled(PassContext& pass, const GpuScene& scene, const std::vector<
     forEachVolume(scene, [&](uint32_t light, const VolumeDraw& volume) {
         if (references && ++reference == 256) clear(), reference = 1;
         pass.commands.setStencilReference(faces, reference);
-        bindVolume(pass, "", constants);
+        bindVolume(pass, scene, "", constants);
         setFaces(pass, true);
         pass.stencil(faces, {.depthFail = references ? vk::StencilOp::eReplace : vk::StencilOp::eIncrementAndClamp});
         drawVolume(pass, light, volume.lod);
 
-        bindVolume(pass, "render/lighting/shaped.frag", constants);
+        bindVolume(pass, scene, "render/lighting/shaped.frag", constants);
         setFaces(pass, false);
         if (references)
             pass.stencil(faces, {.compare = vk::CompareOp::eNotEqual});
@@ -66,7 +70,7 @@ void drawStencilled(PassContext& pass, const GpuScene& scene, const std::vector<
 void addVolume(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     addVolumePass(graph, in, sum, "lighting.volume", false,
                   [&scene = in.scene](PassContext& pass, const std::vector<uint32_t>& constants) {
-                      bindVolume(pass, "render/lighting/shaped.frag", constants);
+                      bindVolume(pass, scene, "render/lighting/shaped.frag", constants);
                       forEachVolume(scene, [&](uint32_t light, const VolumeDraw& volume) {
                           setFaces(pass, volume.frontFaces);
                           drawVolume(pass, light, volume.lod);

@@ -45,11 +45,11 @@ void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, fram
     const bool any = in.scene.lights().shaped > 0;
     const VolumeLists made = any ? addVolumeLists(graph, in) : VolumeLists{};
     auto pass = addVolumePass(graph, in, sum, "lighting.volume-instanced", false,
-                              [arguments = made.arguments](PassContext& context, const std::vector<uint32_t>& constants) {
+                              [scene = &in.scene, arguments = made.arguments](PassContext& context, const std::vector<uint32_t>& constants) {
                                   context.bind({.vertex = "render/lighting/volume_listed.vert",
                                                 .fragment = "render/lighting/shaped.frag",
                                                 .additive = true,
-                                                .depthClamp = true,
+                                                .depthClamp = clampsDepth(*scene),
                                                 .constants = constants});
                                   for (uint32_t c = 0; c < shared::kVolumeClasses; ++c) {
                                       setFaces(context, c & 1);
