@@ -152,9 +152,12 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
         }
     }
     const bool renders = extent.width != 0;
+    const bool computes = std::ranges::any_of(
+        pass.uses, [](const Use& use) { return bool(infoOf(use.access).stages & vk::PipelineStageFlagBits2::eComputeShader); });
     PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, extent);
-    commands.bindDescriptorSets(renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute, pipelines_.layout(), 0,
-                                {frameSet, passSets_[index]}, nullptr);
+    if (renders || computes)
+        commands.bindDescriptorSets(renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute, pipelines_.layout(),
+                                    0, {frameSet, passSets_[index]}, nullptr);
     if (renders) {
         commands.beginRendering({.renderArea = {{0, 0}, extent},
                                  .layerCount = 1,

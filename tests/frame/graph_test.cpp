@@ -144,6 +144,8 @@ TEST_CASE("frame graph: misuse throws and names the pass and the resource") {
     SUBCASE("a texture without its slot, or in a slot that is none") {
         CHECK_THROWS_WITH(graph.addPass("wrong").read(image, Access::fragmentSampled), doctest::Contains("expected a slot"));
         CHECK_THROWS_WITH(graph.addPass("wrong").read(image, Access::fragmentSampled, 8), doctest::Contains("expected a slot"));
+        const BufferId list = graph.createBuffer("list", 64);
+        CHECK_THROWS_WITH(graph.addPass("wrong").write(list, Access::computeStorageWrite), doctest::Contains("expected a slot"));
     }
     SUBCASE("attachments of two sizes") {
         const ImageId small = graph.createImage("small", {kColor.format, {8, 8}});
@@ -175,7 +177,7 @@ TEST_CASE("frame graph: a pass that updates keeps what was written before it, on
 TEST_CASE("frame graph: compute may be the first to write") {
     FrameGraph graph;
     const BufferId list = graph.createBuffer("list", 64);
-    graph.addPass("build").write(list, Access::computeStorageWrite);
+    graph.addPass("build").write(list, Access::computeStorageWrite, 0);
     graph.output(list);
     CHECK(graph.compile().passes.size() == 1);
 }

@@ -18,8 +18,8 @@ struct Difference {
 };
 
 /// Pixels whose eight neighbours show the same object and material at a depth that changes smoothly: where a ray and a
-/// rasterizer must see the same surface.
-inline std::vector<bool> interior(const Frame& frame) {
+/// rasterizer must see the same surface. \param alike a layer that must not change among them either, or null
+inline std::vector<bool> interior(const Frame& frame, const Image* alike = nullptr) {
     const Image &id = frame.aovs.at("id"), &material = frame.aovs.at("material"), &depth = frame.aovs.at("depth");
     std::vector<bool> inside(size_t(id.width) * id.height);
     for (uint32_t y = 1; y + 1 < id.height; ++y)
@@ -27,7 +27,8 @@ inline std::vector<bool> interior(const Frame& frame) {
             bool same = true;
             for (uint32_t v = y - 1; v <= y + 1; ++v)
                 for (uint32_t u = x - 1; u <= x + 1; ++u)
-                    same &= id.at(u, v, 0) == id.at(x, y, 0) && material.at(u, v, 0) == material.at(x, y, 0);
+                    same &= id.at(u, v, 0) == id.at(x, y, 0) && material.at(u, v, 0) == material.at(x, y, 0) &&
+                            (!alike || alike->at(u, v, 0) == alike->at(x, y, 0));
             const float here = depth.at(x, y, 0);
             const float bendX = depth.at(x - 1, y, 0) + depth.at(x + 1, y, 0) - 2 * here;
             const float bendY = depth.at(x, y - 1, 0) + depth.at(x, y + 1, 0) - 2 * here;

@@ -86,7 +86,48 @@ TestScene textureCorners() {
     return {"texture corners", std::move(scene), {frontCamera(3.6f), {192, 144}}, true};
 }
 
+/// The studio under lights that meshes bound: a concave one of each type, and two that overlap.
+TestScene boundedLights() {
+    TestScene test = studio();
+    test.name = "bounded lights";
+    test.hardLights = true;
+    Scene& scene = test.scene;
+    const mat4 upright = glm::rotate(mat4(1), -1.5707964f, vec3(1, 0, 0));  // the prism's axis is +Y
+    scene.lightVolumes = {prism(kAngle, glm::scale(mat4(1), vec3(2.2f, 3, 2.2f)) * upright),
+                          torus(2, 0.7f, 24, 12, glm::translate(mat4(1), vec3(0, 0.8f, -1)) * upright),
+                          prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, glm::translate(mat4(1), vec3(1, 0.3f, 1)))};
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) scene.lights[i].volume = i % 4 == 3 ? kNone : i % 4;
+    return test;
+}
+
 }  // namespace
+
+LightVolume prism(const std::vector<vec2>& corners, const mat4& worldFromPrism) {
+    LightVolume volume;
+    const auto n = uint32_t(corners.size());
+    for (const float z : {-0.5f, 0.5f})
+        for (const vec2 corner : corners) volume.positionsWorld.push_back(vec3(worldFromPrism * vec4(corner, z, 1)));
+    for (uint32_t i = 1; i + 1 < n; ++i) volume.indices.insert(volume.indices.end(), {0, i + 1, i, n, n + i, n + i + 1});
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t j = (i + 1) % n;
+        volume.indices.insert(volume.indices.end(), {i, j, n + j, i, n + j, n + i});
+    }
+    return volume;
+}
+
+LightVolume torus(float ring, float tube, uint32_t around, uint32_t across, const mat4& worldFromTorus) {
+    LightVolume volume;
+    for (uint32_t i = 0; i < around; ++i)
+        for (uint32_t k = 0; k < across; ++k) {
+            const float a = 2 * float(kPi) * float(i) / float(around), b = 2 * float(kPi) * float(k) / float(across);
+            const float r = ring + tube * std::cos(b);
+            volume.positionsWorld.push_back(vec3(worldFromTorus * vec4(r * std::cos(a), r * std::sin(a), tube * std::sin(b), 1)));
+            const uint32_t i1 = (i + 1) % around, k1 = (k + 1) % across;
+            volume.indices.insert(volume.indices.end(), {i * across + k, i1 * across + k, i1 * across + k1,  //
+                                                         i * across + k, i1 * across + k1, i * across + k1});
+        }
+    return volume;
+}
 
 TestScene studio() {
     Scene scene;
@@ -137,6 +178,7 @@ std::vector<TestScene> testScenes() {
     orthographic.view.camera.halfHeight = 3;
     orthographic.view.camera.zFar = 40;
     scenes.push_back(std::move(orthographic));
+    scenes.push_back(boundedLights());
     for (const char* uri : {"builtin:hall?lights=64&triangles=8000", "builtin:materials", "builtin:fireflies?lights=100"})
         scenes.push_back(builtin(uri));
     return scenes;

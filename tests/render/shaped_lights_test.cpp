@@ -33,37 +33,6 @@ private:
     Random random_;
 };
 
-/// Prism over a polygon in the plane z = 0, counter-clockwise, triangulated as a fan around its first corner.
-LightVolume prism(const std::vector<vec2>& corners, const mat4& worldFromPrism) {
-    LightVolume volume;
-    const auto n = uint32_t(corners.size());
-    for (const float z : {-0.5f, 0.5f})
-        for (const vec2 corner : corners) volume.positionsWorld.push_back(vec3(worldFromPrism * vec4(corner, z, 1)));
-    for (uint32_t i = 1; i + 1 < n; ++i) volume.indices.insert(volume.indices.end(), {0, i + 1, i, n, n + i, n + i + 1});
-    for (uint32_t i = 0; i < n; ++i) {
-        const uint32_t j = (i + 1) % n;
-        volume.indices.insert(volume.indices.end(), {i, j, n + j, i, n + j, n + i});
-    }
-    return volume;
-}
-
-LightVolume torus(float ring, float tube, uint32_t around, uint32_t across, const mat4& worldFromTorus) {
-    LightVolume volume;
-    for (uint32_t i = 0; i < around; ++i)
-        for (uint32_t k = 0; k < across; ++k) {
-            const float a = 2 * float(kPi) * float(i) / float(around), b = 2 * float(kPi) * float(k) / float(across);
-            const float r = ring + tube * std::cos(b);
-            volume.positionsWorld.push_back(vec3(worldFromTorus * vec4(r * std::cos(a), r * std::sin(a), tube * std::sin(b), 1)));
-            const uint32_t i1 = (i + 1) % around, k1 = (k + 1) % across;
-            volume.indices.insert(volume.indices.end(), {i * across + k, i1 * across + k, i1 * across + k1,  //
-                                                         i * across + k, i1 * across + k1, i * across + k1});
-        }
-    return volume;
-}
-
-/// L-shaped: the fan around the inner corner stays within it.
-const std::vector<vec2> kAngle{{0, 0}, {0, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 0}};
-
 /// Boxes and spheres in the dark, open to the sky in places.
 Scene randomRoom(Dice& dice) {
     Scene scene;
@@ -171,13 +140,13 @@ TEST_CASE("shaped lights: over 2,000 random views no technique misses or doubles
         const uvec2 extent(1 + dice.below(40), 1 + dice.below(40));
         std::vector<View> views;
         for (int v = 0; v < kViews; ++v) views.push_back({randomCamera(dice), extent});
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < 40; ++i) {
             const mat4& place = views[size_t(i) % kViews].camera.worldFromView;
             scene.lights.push_back(randomLight(dice, vec3(place[3]), -vec3(place[2])));
             if (i % 8 == 0 && !scene.lightVolumes.empty()) scene.lights.back().volume = dice.below(3);
         }
         scene.linkGroups = {{"some", {true, false, true, true, false}, {}}};
-        for (int i = 0; i < 6; ++i) scene.lights[dice.below(60)].linkGroup = 0;
+        for (int i = 0; i < 6; ++i) scene.lights[dice.below(40)].linkGroup = 0;
         validate(scene);
         renderer->setScene(scene);
         const auto render = [&](std::string_view technique, const View& view) {
@@ -197,7 +166,7 @@ TEST_CASE("shaped lights: over 2,000 random views no technique misses or doubles
                 size_t wrong = 0, excess = 0;
                 for (size_t i = 0; i < skipped[v].size(); ++i) {
                     const auto at = [&](const Frame& f, const char* name) { return f.aovs.at(name).data[i]; };
-                    excess += at(frame, "evaluations") < at(frame, "useful-evaluations") || at(frame, "evaluations") > 60;
+                    excess += at(frame, "evaluations") < at(frame, "useful-evaluations") || at(frame, "evaluations") > 40;
                     unsure += skipped[v][i];
                     if (skipped[v][i]) continue;
                     wrong += at(frame, "useful-evaluations") != at(expected[v], "useful-evaluations") ||
@@ -213,4 +182,38 @@ TEST_CASE("shaped lights: over 2,000 random views no technique misses or doubles
     MESSAGE(pairs << " pairs of a light and a pixel at " << compared << " pixels; " << unsure << " pixels left out");
     CHECK(pairs > 1000000);
     CHECK(double(unsure) < 0.02 * double(compared));
+}
+
+TEST_CASE("shaped lights: each technique equals brute force at 1, 16, 255 and 4,096 lights") {
+    ValidatedRenderer renderer;
+    std::vector<TestScene> scenes = testScenes();
+    scenes.push_back({"dense hall", loadScene("builtin:hall?lights=1&triangles=4000&overlap=16"), {}});
+    scenes.back().view.camera = scenes.back().scene.cameras.at(0);
+    REQUIRE(scenes.size() >= 8);
+    for (TestScene& test : scenes) {
+        const View view{test.view.camera, {32, 24}};
+        const Bounds bounds = boundsOf(test.scene);
+        const float size = glm::length(bounds.high - bounds.low);
+        Dice dice(4096);
+        std::vector<Light> many = test.scene.lights;  // with their functions, links and contributions
+        while (many.size() < 4096) {
+            const vec3 at = bounds.low + (bounds.high - bounds.low) * vec3(dice.between(0, 1), dice.between(0, 1), dice.between(0, 1));
+            many.push_back(randomLight(dice, at, dice.direction()));
+            many.back().range = std::min(many.back().range, dice.scale(0.02f, 0.3f) * size);
+            if (many.back().type == LightType::directional) many.back().type = LightType::point;
+        }
+        for (const size_t count : {1, 16, 255, 4096}) {
+            test.scene.lights.assign(many.begin(), many.begin() + ptrdiff_t(count));
+            renderer->setScene(test.scene);
+            const Frame yardstick = renderer->render(view, {.lighting = "brute-force"}, kCounts);
+            for (const auto& technique : render::techniques()) {
+                INFO("scene " << test.name << ", " << count << " lights, technique " << technique.info.name);
+                const Frame frame = renderer->render(view, {.lighting = std::string(technique.info.name)}, kCounts);
+                // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
+                CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(count + 1) * std::exp2(-24));
+                CHECK(frame.aovs.at("useful-evaluations").data == yardstick.aovs.at("useful-evaluations").data);
+                CHECK(frame.aovs.at("light-fingerprint").data == yardstick.aovs.at("light-fingerprint").data);
+            }
+        }
+    }
 }

