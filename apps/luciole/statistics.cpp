@@ -30,7 +30,8 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
     const FrameStats& stats = frame.stats;
     Json json{{"device", stats.deviceName},      {"driver", stats.driver},      {"width", frame.radiance.width},
               {"height", frame.radiance.height}, {"lights", stats.lights},      {"triangles", stats.triangles},
-              {"wallMs", stats.wallMs},          {"peakBytes", stats.peakBytes}};
+              {"wallMs", stats.wallMs},
+              {"recordMs", stats.recordMs},          {"peakBytes", stats.peakBytes}};
     for (const Setting& setting : settingsTable()) json["settings"][std::string(setting.name)] = setting.get(settings);
     json["passes"] = Json::array();
     for (const PassStats& pass : stats.passes)
@@ -39,12 +40,15 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
                                   {"bytes", pass.bytes},
                                   {"draws", pass.draws},
                                   {"stencilDraws", pass.stencilDraws}});
-    if (counts)
+    if (counts) {
+        std::vector<PassStats> counting = stats.passes;
+        std::erase_if(counting, [](const PassStats& pass) { return !pass.name.starts_with("counting."); });
         json["counts"] = {{"evaluations", counts->evaluations},
                           {"usefulEvaluations", counts->usefulEvaluations},
                           {"coveredPixels", counts->coveredPixels},
-                          {"draws", sum(stats.passes, &PassStats::draws)},
-                          {"stencilDraws", sum(stats.passes, &PassStats::stencilDraws)}};
+                          {"draws", sum(counting, &PassStats::draws)},
+                          {"stencilDraws", sum(counting, &PassStats::stencilDraws)}};
+    }
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

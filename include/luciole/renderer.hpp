@@ -49,6 +49,7 @@ struct PassStats {
 struct FrameStats {
     std::vector<PassStats> passes;
     double wallMs = 0;          ///< recording, submission and execution, without upload and read-back
+    double recordMs = 0;        ///< of it, what the host takes to record the frame's commands
     uint64_t peakBytes = 0;     ///< device memory allocated for scene and frame together
     uint64_t triangles = 0;
     uint32_t lights = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 
 #include "frame/pass_context.hpp"
@@ -207,7 +208,9 @@ void Executor::record(vk::DescriptorSet frameSet, bool measure) {
 
 void Executor::run(vk::DescriptorSet frameSet, bool measure) {
     const bool timed = measure && context_.timestampMask() != 0;
+    const auto start = std::chrono::steady_clock::now();
     record(frameSet, timed);
+    recordMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     context_.submitAndWait(commandBuffers_.front());
     passMs_.clear();
     if (!timed) return;

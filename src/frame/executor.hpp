@@ -28,6 +28,7 @@ public:
     std::span<const T> read(BufferId buffer) const { return hostBuffers_.at(buffer.index).template read<T>(); }
 
     std::vector<PassStats> stats() const;  ///< of the last run, in order
+    double recordMs() const { return recordMs_; }  ///< what the host took to record it
     std::string dot() const;               ///< with the times of the last run, if measured
 
     vk::Image image(ImageId id) const { return *images_.at(id.index).handle; }
@@ -55,6 +56,7 @@ private:
     vk::raii::CommandBuffers commandBuffers_ = nullptr;
     std::vector<DrawCounts> drawCounts_;  // per compiled pass
     std::vector<double> passMs_;          // empty until measured
+    double recordMs_ = 0;
 };
 
 }  // namespace luciole::frame

@@ -141,6 +141,7 @@ struct Renderer::Impl {
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
         result.stats = {.passes = frame->executor.stats(),
                         .wallMs = wall.count(),
+                        .recordMs = frame->executor.recordMs(),
                         .peakBytes = context.peakBytes(),
                         .triangles = gpuScene->triangles(),
                         .lights = gpuScene->lightCount(),

@@ -20,7 +20,7 @@ void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std
 // Every light at every pixel in one pass, whatever its range: no bound that could be wrong, nothing to overflow. A draw
 // sums up a slice of the lights in registers; so many are rounded once.
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    auto pass = graph.addPass("lighting.brute-force");
+    auto pass = graph.addPass(in.phase + "brute-force");
     in.readBy(pass);
     pass.update(sum, Access::colorBlend).record([&scene = in.scene, constants = in.constants](frame::PassContext& context) {
         drawAtEveryPixel(context, scene, constants, 0, scene.lightCount());

@@ -8,7 +8,7 @@ using frame::Access;
 // buffer. One rounding per light: an RGBA16F buffer loses up to half a unit in the last place each (and drivers that
 // truncate lose more; see docs/performance.md).
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    auto pass = graph.addPass("lighting.fullscreen");
+    auto pass = graph.addPass(in.phase + "fullscreen");
     in.readBy(pass);
     pass.update(sum, Access::colorBlend)
         .record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {

@@ -7,7 +7,7 @@ using frame::Access;
 // Calver 2003, "Shaped Lights": "a screen aligned quad just big enough to cover the light", here all of them in one instanced
 // draw, whose vertex shader finds the bounds.
 void addQuad(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    auto pass = graph.addPass("lighting.quad");
+    auto pass = graph.addPass(in.phase + "quad");
     in.readBy(pass);
     pass.update(sum, Access::colorBlend).record([&scene = in.scene, constants = in.constants](frame::PassContext& context) {
         const SortedLights& lights = scene.lights();

@@ -15,6 +15,7 @@ struct LightingInputs {
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
     frame::BufferId lights;           ///< the table of lights in view space, as the frame's set names it
+    std::string phase = "lighting.";  ///< what the names of passes begin with
 
     /// Declares that a pass reads G-buffer and lights, and tests against depth (see readGBuffer).
     void readBy(frame::PassBuilder& pass, frame::Access depth = frame::Access::depthTest) const {

@@ -22,7 +22,7 @@ VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
     const BufferId lists = graph.createBuffer("volume.lists", shared::kVolumeClasses * shaped.count * 4ull);
     const BufferId arguments = graph.createBuffer("volume.arguments", shared::kVolumeClasses * sizeof(shared::IndexedDraw));
     for (uint32_t stage = 0; stage < 3; ++stage) {
-        auto pass = graph.addPass(std::string("lighting.volume-instanced.") + std::array{"classes", "places", "lists"}[stage]);
+        auto pass = graph.addPass(in.phase + "volume-instanced." + std::array{"classes", "places", "lists"}[stage]);
         pass.read(in.lights, Access::computeTableRead);
         stage == 0 ? pass.write(classes, Access::computeStorageWrite, 0) : pass.update(classes, Access::computeStorageWrite, 0);
         stage == 0 ? pass.write(counts, Access::computeStorageWrite, 1) : pass.update(counts, Access::computeStorageWrite, 1);
@@ -44,7 +44,7 @@ VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
 void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     const bool any = in.scene.lights().shaped > 0;
     const VolumeLists made = any ? addVolumeLists(graph, in) : VolumeLists{};
-    auto pass = addVolumePass(graph, in, sum, "lighting.volume-instanced", false,
+    auto pass = addVolumePass(graph, in, sum, in.phase + "volume-instanced", false,
                               [scene = &in.scene, arguments = made.arguments](PassContext& context, const std::vector<uint32_t>& constants) {
                                   context.bind({.vertex = "render/lighting/volume_listed.vert",
                                                 .fragment = "render/lighting/shaped.frag",

@@ -106,7 +106,8 @@ frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighti
     const frame::ImageId counts = graph.createImage("counts", {kFloat, graph.resources()[lighting.gbuffer.depth.index].image.extent});
     LightingInputs counting = lighting;
     counting.constants[shared::kConstantLights] |= shared::kCountsLights;
-    graph.addPass("output.counts.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    counting.phase = "counting.";
+    graph.addPass("counting.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     technique.add(graph, counting, counts);
     return addReadback(graph, "counts", counts);
 }

@@ -1,34 +1,23 @@
-// The figures of docs/performance.md: what a frame of the hall costs, pass by pass, and what one light costs at one pixel.
-//   luciole_bench [FRAMES] [WIDTHxHEIGHT]      defaults: 10 frames, 1024x768
-#include <luciole/error.hpp>
-#include <luciole/renderer.hpp>
 #include <luciole/scene_io.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdio>
 #include <map>
 
+#include "suites.hpp"
+
+namespace luciole::bench {
 namespace {
-
-using namespace luciole;
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
 
 /// Milliseconds by pass, one entry per frame.
 using Samples = std::map<std::string, std::vector<double>>;
 
-double sumOf(const Samples& samples, double (*reduce)(std::vector<double>)) {
+template <typename Reduce>
+double sumOf(const Samples& samples, const Reduce& reduce) {
     double sum = 0;
     for (const auto& [name, values] : samples) sum += reduce(values);
     return sum;
 }
-
-double least(std::vector<double> values) { return *std::ranges::min_element(values); }
 
 void printPasses(const Samples& samples) {
     for (const auto& [name, values] : samples)
@@ -39,9 +28,7 @@ void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) 
     const Scene scene = loadScene(fmt::format("builtin:hall?lights={}&overlap=4&triangles=40000&seed=1", lights));
     renderer.setScene(scene);
     const View view{scene.cameras.at(0), extent};
-    std::vector<std::string> techniques;
-    for (const LightingTechniqueInfo& technique : lightingTechniques())
-        if (technique.name != "reference") techniques.emplace_back(technique.name);
+    const std::string techniques[] = {"brute-force", "fullscreen"};
     std::map<std::string, Samples> samples;
     double covered = 0;
     const Frame depths = renderer.render(view, {}, {"depth"});
@@ -68,25 +55,9 @@ void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) 
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    try {
-        int frames = 10;
-        uvec2 extent(1024, 768);
-        char rest = 0;
-        if (argc > 1 && (std::sscanf(argv[1], "%d%c", &frames, &rest) != 1 || frames < 1))
-            throw Error(ErrorKind::usage, fmt::format("expected a number of frames >= 1, got \"{}\"", argv[1]));
-        if (argc > 2 && std::sscanf(argv[2], "%5ux%5u%c", &extent.x, &extent.y, &rest) != 2)
-            throw Error(ErrorKind::usage, fmt::format("expected WIDTHxHEIGHT, got \"{}\"", argv[2]));
-        Renderer renderer;
-        fmt::print("{}, {}; {}x{}; builtin:hall, overlap 4, 40,000 triangles; {} frames, interleaved\n", renderer.device().name,
-                   renderer.device().driver, extent.x, extent.y, frames);
-        for (const uint32_t lights : {16u, 64u, 255u}) benchLights(renderer, lights, frames, extent);
-        return 0;
-    } catch (const Error& error) {
-        fmt::print(stderr, "luciole_bench: error: {}\n", error.what());
-        return int(error.kind());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "luciole_bench: error: {}\n", error.what());
-        return 1;
-    }
+void benchFrames(Renderer& renderer, int frames, uvec2 extent) {
+    fmt::print("builtin:hall, overlap 4, 40,000 triangles\n");
+    for (const uint32_t lights : {16u, 64u, 255u}) benchLights(renderer, lights, frames, extent);
 }
+
+}  // namespace luciole::bench
