@@ -217,3 +217,74 @@ TEST_CASE("shaped lights: each technique equals brute force at 1, 16, 255 and 4,
         }
     }
 }
+
+TEST_CASE("shaped lights: what each technique evaluates and draws in the hall is what docs/techniques says") {
+    ValidatedRenderer renderer;
+    const Scene scene = loadScene("builtin:hall?lights=255");
+    renderer->setScene(scene);
+    const View view{scene.cameras.at(0), {400, 300}};
+    struct Row {
+        const char* technique;
+        double evaluations;
+        uint32_t draws, stencilDraws;
+    };
+    for (const Row& row : {Row{"brute-force", 255, 1, 0}, Row{"fullscreen", 255, 255, 0}, Row{"quad", 24.09, 1, 0}, Row{"volume", 12.18, 242, 0},
+                           Row{"volume-stencil", 4.33, 484, 242}, Row{"volume-stencil-reference", 4.33, 484, 242},
+                           Row{"volume-instanced", 12.18, 12, 0}}) {
+        INFO(row.technique);
+        const Frame frame = renderer->render(view, {.lighting = row.technique}, kCounts);
+        const auto mean = [&](const char* name) {
+            double sum = 0;
+            for (const float value : frame.aovs.at(name).data) sum += value;
+            return sum / double(frame.aovs.at(name).data.size());
+        };
+        // Rasterizers may disagree about pixels on edges: 0.2 % of them.
+        CHECK(mean("evaluations") == doctest::Approx(row.evaluations).epsilon(0.002));
+        CHECK(mean("useful-evaluations") == doctest::Approx(4.0).epsilon(0.002));
+        for (const PassStats& pass : frame.stats.passes) {
+            if (pass.name != std::string("lighting.") + row.technique) continue;
+            CHECK(pass.draws == row.draws);
+            CHECK(pass.stencilDraws == row.stencilDraws);
+        }
+    }
+}
+
+TEST_CASE("light links: the last of 4,096 groups and the last of 65,536 objects are told apart by every technique") {
+    Scene scene;
+    const Material material = lambertMaterial(scene);
+    addObject(scene, quad(1), material, glm::translate(mat4(1), vec3(-1, 0, 0)));
+    addObject(scene, quad(1), material, glm::translate(mat4(1), vec3(1, 0, 0)));
+    scene.objects[0].objectId = kMaxObjectId - 1;
+    scene.objects[1].objectId = kMaxObjectId;
+    scene.linkGroups.resize(kMaxLinkGroups);
+    scene.linkGroups.back().litObjects.resize(kMaxObjectId + 1);
+    scene.linkGroups.back().litObjects[kMaxObjectId] = true;
+    scene.lights = {pointLight(vec3(0, 0, 1), vec3(5), 4), directionalLight(vec3(0, 0, -1))};
+    for (Light& light : scene.lights) light.linkGroup = kMaxLinkGroups - 1;
+    validate(scene);
+    ValidatedRenderer renderer;
+    renderer->setScene(scene);
+    for (const auto& technique : render::techniques()) {
+        INFO(technique.info.name);
+        const Frame frame = renderer->render({frontCamera(), {20, 10}}, {.lighting = std::string(technique.info.name)}, kCounts);
+        CHECK(frame.radiance.at(6, 5, 0) == 0);
+        CHECK(frame.aovs.at("useful-evaluations").at(6, 5, 0) == 0);
+        CHECK(frame.radiance.at(13, 5, 0) > 0.3f);
+        CHECK(frame.aovs.at("useful-evaluations").at(13, 5, 0) == 2);
+    }
+}
+
+TEST_CASE("volume-instanced: what the host records does not depend on the number of lights") {
+    ValidatedRenderer renderer;
+    Scene scene = studio().scene;
+    uint32_t draws = 0;
+    for (const size_t count : {10, 1000}) {
+        scene.lights.assign(count, pointLight(vec3(0, 1, 0), vec3(1), 2));
+        renderer->setScene(scene);
+        const Frame frame = renderer->render({studio().view.camera, {16, 12}}, {.lighting = "volume-instanced"});
+        uint32_t sum = 0;
+        for (const PassStats& pass : frame.stats.passes) sum += pass.draws;
+        if (draws != 0) CHECK(sum == draws);
+        draws = sum;
+    }
+}
