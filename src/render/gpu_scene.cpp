@@ -77,6 +77,9 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     uploadFunctions(scene);
     links_ = gpu::uploadBuffer(context_, "link table", linkTable(scene, linkWords_), Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
+    constexpr uint32_t kMostLights = 64 * 65535;  // a dispatch of so many, in groups of 64, is the most that every device takes
+    if (scene.lights.size() > kMostLights)
+        throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, got {}", kMostLights, scene.lights.size()));
     sources_ = gpu::uploadBuffer(context_, "light sources", lights_.sources, Usage::eStorageBuffer);
     // Never smaller than the uniform block that shaders may read it through.
     const size_t uniformBytes = kUniformLights * sizeof(LightConstants);

@@ -53,7 +53,8 @@ void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, fram
                                                 .constants = constants});
                                   for (uint32_t c = 0; c < shared::kVolumeClasses; ++c) {
                                       setFaces(context, c & 1);
-                                      context.push(c >> 1);
+                                      // Not as the arguments' first instance, which devices need not know.
+                                      context.push(std::array{c >> 1, c * scene->lights().shaped});
                                       context.drawIndexedIndirect(arguments, c * sizeof(shared::IndexedDraw));
                                   }
                               });

@@ -37,7 +37,7 @@ void main() {
             sum += count;
         }
         const uint lod = local >> 1u;
-        IndexedDraw draw = {volumeIndexCount(lod), sum, volumeFirstIndex(lod), 0, local * shaped.count};
+        IndexedDraw draw = {volumeIndexCount(lod), sum, volumeFirstIndex(lod), 0, 0u};
         arguments[local] = draw;
         return;
     }
