@@ -193,13 +193,15 @@ struct Ambience {
     vec3 upWorld{0, 1, 0};  ///< unit
 };
 
+inline constexpr float kLeastNear = 1e-18f;  ///< of perspective: depth is near / distance, and has to stay a number
+
 struct Camera {
     std::string name;
     mat4 worldFromView{1};      ///< rigid, at most 1e17 m from the origin; looks down -Z
     bool orthographic = false;
     float yFov = 0.9f;          ///< radians, [1e-4, pi); perspective
     float halfHeight = 1;       ///< metres, > 0; orthographic. The width follows from the picture's aspect
-    float zNear = 0.1f;         ///< metres, > 0 (orthographic: >= 0). Perspective has no far plane
+    float zNear = 0.1f;         ///< metres, >= kLeastNear (orthographic: >= 0). Perspective has no far plane
     float zFar = 1000;          ///< metres, > zNear; orthographic only
 };
 

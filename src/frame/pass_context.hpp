@@ -31,12 +31,21 @@ public:
         bool depthClamp = false;
         std::vector<uint32_t> constants = {};
     };
-    void bind(const Draw& draw) {
-        marksStencil_ = !colors_.empty() && *draw.fragment == 0;
-        commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                              pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices,
-                                              .additive = draw.additive, .depthClamp = draw.depthClamp, .constants = draw.constants, .colors = colors_, .depth = depth_}));
+    /// A pipeline of this pass, to bind more than once.
+    struct Prepared {
+        vk::Pipeline pipeline;
+        bool marksStencil;
+    };
+    Prepared prepare(const Draw& draw) {
+        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices,
+                                .additive = draw.additive, .depthClamp = draw.depthClamp, .constants = draw.constants, .colors = colors_, .depth = depth_}),
+                !colors_.empty() && *draw.fragment == 0};
     }
+    void bind(const Prepared& prepared) {
+        marksStencil_ = prepared.marksStencil;
+        commands.bindPipeline(vk::PipelineBindPoint::eGraphics, prepared.pipeline);
+    }
+    void bind(const Draw& draw) { bind(prepare(draw)); }
     void bindSet(uint32_t set, vk::DescriptorSet handle) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), set, handle, nullptr);
     }

@@ -91,6 +91,7 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
     if (!v12.separateDepthStencilLayouts) return "lacks the feature separateDepthStencilLayouts";
     if (!v13.shaderTerminateInvocation) return "lacks the feature shaderTerminateInvocation";
+    // The size of workgroups may be a constant's; Vulkan 1.3 asks of devices that they have it.
     if (!v13.maintenance4) return "lacks the feature maintenance4";
     if (!v13.synchronization2) return "lacks the feature synchronization2";
     if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
@@ -103,9 +104,9 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     for (const auto format : {vk::Format::eR32G32B32A32Sfloat, vk::Format::eR16G16B16A16Sfloat})
         if (!(device.getFormatProperties(format).optimalTilingFeatures & blendable))
             return fmt::format("can't blend into {}", vk::to_string(format));
-    if (!(device.getFormatProperties(vk::Format::eD32SfloatS8Uint).optimalTilingFeatures &
-          vk::FormatFeatureFlagBits::eDepthStencilAttachment))
-        return "can't render into D32SfloatS8Uint";
+    const auto depthFeatures = vk::FormatFeatureFlagBits::eDepthStencilAttachment | vk::FormatFeatureFlagBits::eSampledImage;
+    if ((device.getFormatProperties(vk::Format::eD32SfloatS8Uint).optimalTilingFeatures & depthFeatures) != depthFeatures)
+        return "can't render into and sample D32SfloatS8Uint";
     const auto color = vk::FormatFeatureFlagBits::eColorAttachment;
     for (const auto format : {vk::Format::eR16G16B16A16Unorm, vk::Format::eR16Unorm})
         if (!(device.getFormatProperties(format).optimalTilingFeatures & color))

@@ -80,11 +80,10 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const auto radianceFormat = key.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
                                                                               : vk::Format::eR16G16B16A16Sfloat;
     const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
-    const LightingInputs lighting{
-        gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}, addLightsInView(graph, scene)};
-
     if (key.depthPrepass) addDepthPrepass(graph, scene, key, gbuffer);
     addGeometry(graph, scene, key, gbuffer);
+    const LightingInputs lighting{
+        gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}, addLightsInView(graph, scene)};
     addInitialLight(graph, lighting, radiance);
     technique.add(graph, lighting, radiance);
     const frame::ImageId display = addToneMap(graph, radiance, extent);

@@ -234,7 +234,7 @@ void checkCamera(const Element& element, const Camera& camera) {
     element.expect(distance <= 1e17f, "worldFromView", "at most 1e17 m from the origin", distance);
     if (!camera.orthographic) {
         element.expect(camera.yFov >= 1e-4f && camera.yFov < float(kPi), "yFov", "[0.0001, pi)", camera.yFov);
-        element.expect(camera.zNear > 0 && isFinite(camera.zNear), "zNear", "a finite number > 0", camera.zNear);
+        element.expect(camera.zNear >= kLeastNear && isFinite(camera.zNear), "zNear", "a finite number >= 1e-18", camera.zNear);
         return;
     }
     element.expect(camera.halfHeight > 0 && isFinite(camera.halfHeight), "halfHeight", "a finite number > 0",

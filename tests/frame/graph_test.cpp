@@ -182,6 +182,39 @@ TEST_CASE("frame graph: compute may be the first to write") {
     CHECK(graph.compile().passes.size() == 1);
 }
 
+TEST_CASE("frame graph: a depth buffer with a stencil is sampled, tested and marked in one layout") {
+    FrameGraph graph;
+    const ImageId depth = graph.createImage("depth", {vk::Format::eD32SfloatS8Uint, kColor.extent});
+    const ImageId color = graph.createImage("color", kColor);
+    graph.addPass("geometry").clear(depth, Access::depthWrite, vk::ClearDepthStencilValue{0, 0});
+    graph.addPass("marks").read(depth, Access::fragmentSampled, 0).update(depth, Access::stencilWrite).clear(color, Access::colorWrite, kClear);
+    graph.addPass("tests").read(depth, Access::fragmentSampled, 0).read(depth, Access::depthTest).update(color, Access::colorBlend);
+    addOutput(graph, color);
+    const CompiledGraph compiled = graph.compile();
+    const auto layout = vk::ImageLayout::eDepthReadOnlyStencilAttachmentOptimal;
+    for (const size_t pass : {1, 2}) {
+        const auto barrier = std::ranges::find(compiled.passes[pass].barriers, depth.index, &Barrier::resource);
+        REQUIRE(barrier != compiled.passes[pass].barriers.end());
+        CHECK(barrier->newLayout == layout);
+        CHECK(barrier->oldLayout == (pass == 1 ? vk::ImageLayout::eDepthStencilAttachmentOptimal : layout));
+        CHECK(bool(barrier->srcAccess & vk::AccessFlagBits2::eDepthStencilAttachmentWrite));
+    }
+}
+
+TEST_CASE("frame graph: what compute writes reaches tables and the arguments of draws") {
+    FrameGraph graph;
+    const BufferId table = graph.importBuffer("table", 64, {}), arguments = graph.createBuffer("arguments", 64);
+    const ImageId color = graph.createImage("color", kColor);
+    graph.addPass("build").write(table, Access::computeStorageWrite, 0).write(arguments, Access::computeStorageWrite, 1);
+    graph.addPass("draw").read(table, Access::tableRead).read(arguments, Access::indirectRead).clear(color, Access::colorWrite, kClear);
+    addOutput(graph, color);
+    const auto& barriers = graph.compile().passes[1].barriers;
+    const auto to = [&](BufferId buffer) { return std::ranges::find(barriers, buffer.index, &Barrier::resource)->dstStages; };
+    CHECK(bool(to(table) & vk::PipelineStageFlagBits2::eVertexShader));
+    CHECK(bool(to(table) & vk::PipelineStageFlagBits2::eFragmentShader));
+    CHECK(to(arguments) == vk::PipelineStageFlagBits2::eDrawIndirect);
+}
+
 TEST_CASE("frame graph: the drawing names passes, resources with sizes, and notes") {
     FrameGraph graph;
     const ImageId image = graph.createImage("radiance", kColor);

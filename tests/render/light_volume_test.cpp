@@ -235,7 +235,8 @@ TEST_CASE("projected ball: where the near plane cuts off the tangents' points of
 
 TEST_CASE("projected ball: one that touches the near plane from behind is a point, one that does not reach it is nothing") {
     const vec4 touching = boundsOf({{2, 1, -1}, 2, 1});
-    for (int side = 0; side < 4; ++side) CHECK(touching[side] == (side % 2 == 0 ? 2.0f : 1.0f));
+    for (int side = 0; side < 4; ++side) // The code widens by what rounding may hide: sqrt(2 * 3e-7) of the radius, over the near plane.
+        CHECK(touching[side] == doctest::Approx(side % 2 == 0 ? 2 : 1).epsilon(2e-3));
     const vec4 behind = projectedBounds(perspective(1), vec4(2, 1, 1, 1.999f));
     CHECK(behind.x > behind.z);
     CHECK_FALSE(shared::coversPixel(behind, vec2(8, 8)));
@@ -471,7 +472,7 @@ TEST_CASE("volume meshes: the ball around a mesh holds its vertices") {
 }
 
 TEST_CASE("volume meshes: a ball's cover as much more than the ball as docs/techniques/light-volumes.md says") {
-    const std::array documented{1.910, 1.630, 1.177, 1.079, 1.045};
+    const std::array documented{1.910, 1.636, 1.182, 1.083, 1.049};
     for (uint32_t lod = 0; lod < shared::kVolumeLods; ++lod) {
         const Polyhedron mesh = meshOf({vec3(0), vec3(0, 0, 1), 1, shared::kHalfTurn}, lod);
         CHECK(meanProjectedArea(mesh) / kPi == Approx(documented[lod]).epsilon(0.0005 / documented[lod]));  // three decimals

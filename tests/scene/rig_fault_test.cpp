@@ -188,7 +188,7 @@ TEST_CASE("rig: every fault is refused with its path, and the scene stays as it 
          "test.json: /cameras/0/fov: expected a number above 0 and below 180, got 180"},
         {R"({"cameras": [{"name": "door", "fov": 50, "orthographic": 2}]})",
          "test.json: /cameras/0/orthographic: expected either fov or orthographic, got both"},
-        {R"({"cameras": [{"name": "door", "near": 0}]})", "test.json: /cameras/0: expected near > 0"},
+        {R"({"cameras": [{"name": "door", "near": 0}]})", "test.json: /cameras/0: expected near >= 1e-18"},
         {R"({"cameras": [{"name": "door", "orthographic": 2, "near": 5, "far": 4}]})",
          "test.json: /cameras/0: expected far > near, got 4 and 5"},
         {R"({"cameras": [{"name": "door", "matrix": [2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]}]})",

@@ -7,8 +7,9 @@
 #include "render/shaders/illuminate.glsl"
 
 vec4 contribution(ShadingPoint p, LightConstants light) {
-    if (!usesLights(kCountsLights)) return vec4(illuminate(p, light), 0);
-    const bool useful = p.s.material != 0u && reaches(light, p.s.P, p.s.objectId);
+    const bool surface = p.s.material != 0u;  // where there is none, its position may be infinitely far, or no number
+    if (!usesLights(kCountsLights)) return vec4(surface ? illuminate(p, light) : vec3(0), 0);
+    const bool useful = surface && reaches(light, p.s.P, p.s.objectId);
     return vec4(1, useful, useful ? fingerprint(light.sceneIndex) : 0u, 0);
 }
 #endif

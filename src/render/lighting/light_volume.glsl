@@ -17,12 +17,4 @@ vec4 volumePosition(LightConstants light, uint lod, uint vertex) {
     return view.clipFromView * vec4(volumeVertex(enclosingShape(light), lod, vertex), 1);
 }
 
-// A ball around all that the light can reach. Not for unbounded lights.
-vec4 enclosingBall(LightConstants light) {
-    if (light.volume == kNoIndex) return boundingBall(enclosingShape(light));
-    const VolumeConstants bounds = volumes[light.volume];
-    const vec3 center = mat3(view.viewFromWorld) * (0.5 * (bounds.low + bounds.high) - view.worldFromView[3].xyz);
-    const LightShape ball = {center, vec3(0, 0, 1), 0.5 * distance(bounds.low, bounds.high), kHalfTurn};
-    return vec4(center, ball.radius + slackOf(view, ball));
-}
 #endif

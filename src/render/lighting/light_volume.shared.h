@@ -41,9 +41,12 @@ SHARED_FN float slackOf(ViewConstants view, LightShape shape) {
     return slack.x + farthest * (slack.y + farthest * (slack.z + slack.w / nearest));
 }
 
+// What a device may be off in sines and their inverses, radians and share of a radius: Vulkan allows 2^-11.
+const float kTrigonometry = 1e-3f;
+
 // Contains every point within `slack` of the shape's hull.
 SHARED_FN LightShape inflate(LightShape shape, float slack) {
-    const float angle = max(shape.angle, 0.02f);
+    const float angle = min(max(shape.angle + kTrigonometry, 0.02f), kHalfTurn);
     const float shift = angle < kHalfTurn ? slack / sin(min(angle, 0.5f * kHalfTurn)) : 0.0f;
     LightShape larger = {shape.apex - shape.axis * shift, shape.axis, shape.radius + slack + shift, angle};
     return larger;
@@ -94,6 +97,35 @@ SHARED_FN vec4 projectedBounds(ViewConstants view, vec4 ball) {
     }
     const vec2 scale = view.clipScale;
     return vec4(x.x * scale.x, -y.y * scale.y, x.y * scale.x, -y.x * scale.y);
+}
+
+// Bounds of a shape's projection, and the depth of its closest point or less. A cone lies in the hull of its apex and of a ball
+// around its cap, whose projection, if the near plane cuts neither, is bounded by their bounds.
+struct ShapeBounds {
+    vec4 rectangle;  // as projectedBounds
+    float depth;
+};
+SHARED_FN ShapeBounds shapeBounds(ViewConstants view, LightShape shape) {
+    const vec4 ball = boundingBall(shape);
+    ShapeBounds bounds = {projectedBounds(view, ball), -ball.z - ball.w};
+    if (shape.angle > 0.5f * kHalfTurn) return bounds;
+    const vec4 cap = vec4(shape.apex + shape.axis * (shape.radius * cos(shape.angle)), shape.radius * sin(shape.angle));
+    const float depth = min(-shape.apex.z, -cap.z - cap.w);
+    if (depth < view.zNear) return bounds;
+    const vec4 a = projectedBounds(view, vec4(shape.apex, 0));
+    const vec4 b = projectedBounds(view, cap);
+    const vec4 both = vec4(min(a.x, b.x), min(a.y, b.y), max(a.z, b.z), max(a.w, b.w));
+    const vec4 r = bounds.rectangle;
+    bounds.rectangle = vec4(max(r.x, both.x), max(r.y, both.y), min(r.z, both.z), min(r.w, both.w));
+    bounds.depth = max(bounds.depth, depth);
+    return bounds;
+}
+
+// A ball around a mesh that bounds a light, with the G-buffer's slack.
+SHARED_FN vec4 volumeBall(ViewConstants view, VolumeConstants volume) {
+    const vec3 center = mat3(view.viewFromWorld) * (0.5f * (volume.low + volume.high) - vec3(view.worldFromView[3]));
+    LightShape ball = {center, vec3(0, 0, 1), 0.5f * distance(volume.low, volume.high), kHalfTurn};
+    return vec4(center, ball.radius + slackOf(view, ball));
 }
 
 // Whether bounds in normalized device coordinates contain the centre of a pixel of the picture.
@@ -151,8 +183,7 @@ SHARED_FN VolumeMesh volumeMesh(LightShape shape, uint lod) {
     // A facet between two rings lies nearest to the apex where it is nearest to the equator.
     const float facet = clamp(floor(0.5f * kHalfTurn / step), 0.0f, float(volumeRings(lod)) - 1.0f);
     const float s = sin((facet + 0.5f) * step);
-    // Enough for floats' rounding, too.
-    mesh.radius = 1.00001f * shape.radius * sqrt(c * c * (1.0f - s * s) + s * s) / (c * cos(0.5f * step));
+    mesh.radius = (1.0f + 2.0f * kTrigonometry) * shape.radius * sqrt(c * c * (1.0f - s * s) + s * s) / (c * cos(0.5f * step));
     mesh.base = min(mesh.radius * cos(mesh.angle), 0.0f);
     return mesh;
 }
@@ -205,12 +236,12 @@ SHARED_FN VolumeDraw volumeDraw(ViewConstants view, LightConstants light) {
     const LightShape shape = inflate(plain, slack);
     const vec4 ball = boundingBall(shape);
     VolumeDraw draw;
-    draw.visible = view.cullLights == 0u || coversPixel(projectedBounds(view, ball), view.extent);
+    draw.visible = view.cullLights == 0u || coversPixel(shapeBounds(view, shape).rectangle, view.extent);
     // Where the G-buffer tells distances no better than this, its farthest ones may be anything (calver, far off).
     const bool vague = slack > 0.25f * (length(plain.apex) + plain.radius);
     draw.lod = vague ? kVolumeScreen : volumeLod(radiusInPixels(view, ball));
     const vec4 around = meshBall(shape, draw.lod);
-    draw.frontFaces = draw.lod != kVolumeScreen && (view.orthographic != 0u || -around.z - around.w > view.zNear);
+    draw.frontFaces = draw.lod != kVolumeScreen && (view.orthographic != 0u || -around.z - around.w > 1.00001f * view.zNear);
     return draw;
 }
 

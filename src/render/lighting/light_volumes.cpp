@@ -17,21 +17,23 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32
     const uint32_t first = lights.unbounded + lights.shaped;
     pass.commands.setStencilTestEnable(true);
     pass.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
+    PassContext::Draw draw{.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = clampsDepth(scene), .constants = constants};
+    const PassContext::Prepared count = pass.prepare(draw);
+    draw.fragment = "render/lighting/shaped.frag";
+    const PassContext::Prepared lit = pass.prepare(draw);
+    pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
     for (uint32_t light = first; light < first + lights.meshes; ++light) {
         const shared::VolumeConstants& volume = scene.volumeOf(lights.sources[light]);
-        pass.bind({.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = clampsDepth(scene), .constants = constants});
-        pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
+        const vec4 bounds = shared::projectedBounds(scene.view(), shared::volumeBall(scene.view(), volume));
+        if (scene.view().cullLights != 0 && !shared::coversPixel(bounds, scene.view().extent)) continue;
+        pass.bind(count);
         pass.depth(vk::CompareOp::eGreaterOrEqual, false);
         pass.stencil(vk::StencilFaceFlagBits::eFront, {.depthFail = vk::StencilOp::eDecrementAndWrap});
         pass.stencil(vk::StencilFaceFlagBits::eBack, {.depthFail = vk::StencilOp::eIncrementAndWrap});
         pass.draw(volume.vertexCount, 1, volume.firstVertex, light);
 
         // Some face lies behind every marked pixel; the first one drawn there lights it and takes the mark away.
-        pass.bind({.vertex = "render/lighting/volume_mesh.vert",
-                   .fragment = "render/lighting/shaped.frag",
-                   .additive = true,
-                   .depthClamp = clampsDepth(scene),
-                   .constants = constants});
+        pass.bind(lit);
         pass.depth(vk::CompareOp::eAlways, false);
         pass.stencil(vk::StencilFaceFlagBits::eFrontAndBack,
                      {.compare = vk::CompareOp::eNotEqual, .pass = vk::StencilOp::eZero});

@@ -4,7 +4,7 @@
 #include "render/shaders/frame.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 1, binding = 8, scalar) writeonly buffer LightsInView { LightConstants lightsInView[]; };
+layout(set = 1, binding = kPassStorage, scalar) writeonly buffer LightsInView { LightConstants lightsInView[]; };
 
 // Takes the lights from world into view space, so that what the host does per frame does not grow with their number.
 void main() {

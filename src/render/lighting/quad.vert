@@ -8,15 +8,21 @@ layout(location = 0) flat out uint lightIndex;
 // Optimisations").
 void main() {
     lightIndex = gl_InstanceIndex;
-    const vec4 ball = enclosingBall(lights[lightIndex]);
-    const vec4 exact = projectedBounds(view, ball);
-    const vec4 bounds = clamp(exact, vec4(-1), vec4(1));
+    const LightConstants light = lights[lightIndex];
+    ShapeBounds bounds;
+    if (light.volume == kNoIndex) {
+        bounds = shapeBounds(view, enclosingShape(light));
+    } else {
+        const vec4 ball = volumeBall(view, volumes[light.volume]);
+        bounds = ShapeBounds(projectedBounds(view, ball), -ball.z - ball.w);
+    }
+    const vec4 rectangle = clamp(bounds.rectangle, vec4(-1), vec4(1));
     const uint corner = uint[](0u, 1u, 2u, 2u, 1u, 3u)[gl_VertexIndex];
-    const vec2 position = mix(bounds.xy, bounds.zw, vec2(corner & 1u, corner >> 1u));
-    const vec4 closest = view.clipFromView * vec4(0, 0, ball.z + ball.w, 1);
-    const bool touchesNear = ball.z + ball.w >= -view.zNear;
+    const vec2 position = mix(rectangle.xy, rectangle.zw, vec2(corner & 1u, corner >> 1u));
+    const vec4 closest = view.clipFromView * vec4(0, 0, -bounds.depth, 1);
+    const bool touchesNear = bounds.depth <= view.zNear;
     gl_Position = vec4(position, touchesNear ? 1.0 : clamp(closest.z / closest.w, 0.0, 1.0), 1);
-    const bool behind = exact.x > exact.z;
-    if (behind || (view.cullLights != 0u && !coversPixel(exact, view.extent)))
+    const bool nowhere = bounds.rectangle.x > bounds.rectangle.z || bounds.rectangle.y > bounds.rectangle.w;
+    if (nowhere || (view.cullLights != 0u && !coversPixel(bounds.rectangle, view.extent)))
         gl_Position = vec4(0, 0, 0, 1);  // all corners in one place: nothing
 }

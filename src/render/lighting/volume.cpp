@@ -20,12 +20,12 @@ void forEachVolume(const GpuScene& scene, const Draw& draw) {
     }
 }
 
-void bindVolume(PassContext& pass, const GpuScene& scene, const char* fragment, const std::vector<uint32_t>& constants) {
-    pass.bind({.vertex = "render/lighting/volume.vert",
-               .fragment = fragment,
-               .additive = true,
-               .depthClamp = clampsDepth(scene),
-               .constants = constants});
+PassContext::Prepared prepare(PassContext& pass, const GpuScene& scene, const char* fragment, const std::vector<uint32_t>& constants) {
+    return pass.prepare({.vertex = "render/lighting/volume.vert",
+                         .fragment = fragment,
+                         .additive = true,
+                         .depthClamp = clampsDepth(scene),
+                         .constants = constants});
 }
 
 void drawVolume(PassContext& pass, uint32_t light, uint32_t lod) {
@@ -42,23 +42,26 @@ void drawStencilled(PassContext& pass, const GpuScene& scene, const std::vector<
         pass.commands.clearAttachments(vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eStencil},
                                        vk::ClearRect{.rect = {{}, pass.extent()}, .layerCount = 1});
     };
+    const PassContext::Prepared mark = prepare(pass, scene, "", constants);
+    const PassContext::Prepared light = prepare(pass, scene, "render/lighting/shaped.frag", constants);
     uint32_t reference = 0;
     pass.commands.setStencilTestEnable(true);
-    forEachVolume(scene, [&](uint32_t light, const VolumeDraw& volume) {
+    forEachVolume(scene, [&](uint32_t index, const VolumeDraw& volume) {
         if (references && ++reference == 256) clear(), reference = 1;
         pass.commands.setStencilReference(faces, reference);
-        bindVolume(pass, scene, "", constants);
-        setFaces(pass, true);
-        pass.stencil(faces, {.depthFail = references ? vk::StencilOp::eReplace : vk::StencilOp::eIncrementAndClamp});
-        drawVolume(pass, light, volume.lod);
-
-        bindVolume(pass, scene, "render/lighting/shaped.frag", constants);
+        if (volume.frontFaces) {  // else the eye is inside, or nearly: no surface lies before the light
+            pass.bind(mark);
+            setFaces(pass, true);
+            pass.stencil(faces, {.depthFail = references ? vk::StencilOp::eReplace : vk::StencilOp::eIncrementAndClamp});
+            drawVolume(pass, index, volume.lod);
+        }
+        pass.bind(light);
         setFaces(pass, false);
         if (references)
             pass.stencil(faces, {.compare = vk::CompareOp::eNotEqual});
         else
             pass.stencil(faces, {.compare = vk::CompareOp::eEqual, .fail = vk::StencilOp::eZero});
-        drawVolume(pass, light, volume.lod);
+        drawVolume(pass, index, volume.lod);
     });
     if (references) clear();
     pass.commands.setStencilTestEnable(false);
@@ -70,7 +73,7 @@ void drawStencilled(PassContext& pass, const GpuScene& scene, const std::vector<
 void addVolume(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     addVolumePass(graph, in, sum, in.phase + "volume", false,
                   [&scene = in.scene](PassContext& pass, const std::vector<uint32_t>& constants) {
-                      bindVolume(pass, scene, "render/lighting/shaped.frag", constants);
+                      pass.bind(prepare(pass, scene, "render/lighting/shaped.frag", constants));
                       forEachVolume(scene, [&](uint32_t light, const VolumeDraw& volume) {
                           setFaces(pass, volume.frontFaces);
                           drawVolume(pass, light, volume.lod);

@@ -4,6 +4,7 @@
 
 layout(push_constant, scalar) uniform Push { uint lod; };
 layout(location = 0) flat out uint lightIndex;
+invariant gl_Position;  // what marks the stencil and what lights are two pipelines
 
 // A closed convex mesh around what the light can reach (Calver 2003, "Convex Light Volumes"). The instance is the light.
 void main() {

@@ -21,6 +21,7 @@ VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
     const BufferId counts = graph.createBuffer("volume.counts", groups * shared::kVolumeClasses * 4ull);
     const BufferId lists = graph.createBuffer("volume.lists", shared::kVolumeClasses * shaped.count * 4ull);
     const BufferId arguments = graph.createBuffer("volume.arguments", shared::kVolumeClasses * sizeof(shared::IndexedDraw));
+    // Every stage is the same shader, which names all four buffers.
     for (uint32_t stage = 0; stage < 3; ++stage) {
         auto pass = graph.addPass(in.phase + "volume-instanced." + std::array{"classes", "places", "lists"}[stage]);
         pass.read(in.lights, Access::computeTableRead);

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "render/lighting/light_volume.glsl"
 
-layout(set = 1, binding = 8, scalar) readonly buffer List { uint list[]; };
+layout(set = 1, binding = kPassStorage, scalar) readonly buffer List { uint list[]; };
 layout(push_constant, scalar) uniform Push { uint lod; uint firstPlace; };
 layout(location = 0) flat out uint lightIndex;
 

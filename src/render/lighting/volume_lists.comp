@@ -8,10 +8,10 @@
 layout(constant_id = 3) const uint kStage = 0u;
 layout(local_size_x = kVolumeGroup) in;
 layout(push_constant, scalar) uniform Push { LightSlice shaped; };
-layout(set = 1, binding = 8, scalar) buffer Classes { uint classes[]; };
-layout(set = 1, binding = 9, scalar) buffer GroupCounts { uint groupCounts[]; };  // [group][class]
-layout(set = 1, binding = 10, scalar) buffer Lists { uint lists[]; };
-layout(set = 1, binding = 11, scalar) buffer Arguments { IndexedDraw arguments[]; };
+layout(set = 1, binding = kPassStorage, scalar) buffer Classes { uint classes[]; };
+layout(set = 1, binding = kPassStorage + 1, scalar) buffer GroupCounts { uint groupCounts[]; };  // [group][class]
+layout(set = 1, binding = kPassStorage + 2, scalar) buffer Lists { uint lists[]; };
+layout(set = 1, binding = kPassStorage + 3, scalar) buffer Arguments { IndexedDraw arguments[]; };
 
 shared uint groupClasses[kVolumeGroup];
 

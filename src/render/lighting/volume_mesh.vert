@@ -3,6 +3,7 @@
 #include "render/shaders/frame.glsl"
 
 layout(location = 0) flat out uint lightIndex;
+invariant gl_Position;  // what marks the stencil and what lights are two pipelines
 
 // A mesh that bounds a light, triangle by triangle.
 void main() {

@@ -49,7 +49,8 @@ bool passesLeft(vec2 a, vec2 b) {
     const bool swapped = a.x != b.x ? a.x > b.x : a.y > b.y;
     const vec2 u = swapped ? b : a;
     const vec2 v = swapped ? a : b;
-    return (u.x * v.y - u.y * v.x >= 0.0) != swapped;
+    precise const float side = u.x * v.y - u.y * v.x;
+    return (side >= 0.0) != swapped;
 }
 
 // Whether the volume's surface winds about P (Calver 2003, "Concave Light Volume"): how often a ray along +z leaves it less
@@ -73,21 +74,20 @@ bool insideVolume(uint volume, vec3 positionWorld) {
     return winding != 0;
 }
 
-// Whether the light is for this object and this place, whatever its strength there.
-bool touches(LightConstants light, vec3 P, uint objectId) {
-    const bool bounded = usesLights(kUsesVolumes) && light.volume != kNoIndex;
-    return (!usesLights(kUsesLinks) || linked(light.linkGroup, objectId)) &&
-           (!bounded || insideVolume(light.volume, (view.worldFromView * vec4(P, 1)).xyz));
+bool inVolume(LightConstants light, vec3 P) {
+    return light.volume == kNoIndex || insideVolume(light.volume, (view.worldFromView * vec4(P, 1)).xyz);
 }
 
-// Whether any of its light can arrive: `touches`, within range and cone.
+// Whether any light can arrive: linked, within range, cone and volume. The volume last, as it costs most.
 bool reaches(LightConstants light, vec3 P, uint objectId) {
-    if (!touches(light, P, objectId)) return false;
-    if (light.type == kLightDirectional) return true;
-    const vec3 toLight = light.position - P;
-    const float dist = length(toLight);
-    const bool inCone = light.type != kLightSpot || -dot(toLight, light.direction) > light.cosOuter * dist;
-    return dist < light.range && inCone;
+    if (usesLights(kUsesLinks) && !linked(light.linkGroup, objectId)) return false;
+    if (light.type != kLightDirectional) {
+        const vec3 toLight = light.position - P;
+        const float dist = length(toLight);
+        const bool inCone = light.type != kLightSpot || -dot(toLight, light.direction) > light.cosOuter * dist;
+        if (dist >= light.range || !inCone) return false;
+    }
+    return !usesLights(kUsesVolumes) || inVolume(light, P);
 }
 
 // What arrives at a point: L to the light, E the irradiance on a plane that faces it.
@@ -175,7 +175,8 @@ vec3 illuminateMetallicRoughness(ShadingPoint p, vec3 L, vec3 E, vec2 keep) {
 // Radiance that the point sends to the eye from this light.
 vec3 illuminate(ShadingPoint p, LightConstants light) {
     const Arrival arrival = arrivalAt(light, p.s.P);
-    if (!touches(light, p.s.P, p.s.objectId)) return vec3(0);
+    if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return vec3(0);
+    if (usesLights(kUsesVolumes) && arrival.E != vec3(0) && !inVolume(light, p.s.P)) return vec3(0);
     vec2 keep = vec2(1);
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {

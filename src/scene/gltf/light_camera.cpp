@@ -83,6 +83,10 @@ std::optional<Camera> readCamera(const JsonNode& root, const JsonNode& reference
         camera.yFov = float(lens.at("yfov").positiveNumber());
         if (camera.yFov >= float(kPi)) lens.at("yfov").fail("an angle below pi");
         camera.zNear = float(lens.at("znear").positiveNumber());
+        if (camera.zNear < kLeastNear) {
+            warnings.add(fmt::format("{} \"{}\": its znear of {} is taken as {}", node.json.path(), node.name, camera.zNear, kLeastNear));
+            camera.zNear = kLeastNear;
+        }
     }
     const auto worldFromView = rigid(node.worldFromNode);
     if (!worldFromView) {

@@ -51,8 +51,8 @@ void setLens(const JsonNode& entry, Camera& camera) {
     }
     if (const auto v = entry.find("near")) camera.zNear = float(v->number(0));
     if (const auto v = entry.find("far")) camera.zFar = float(v->positiveNumber());
-    if (!camera.orthographic && !(camera.zNear > 0))
-        entry.failWith("expected near > 0 for a perspective camera, got 0");
+    if (!camera.orthographic && !(camera.zNear >= kLeastNear))
+        entry.failWith(fmt::format("expected near >= {} for a perspective camera, got {}", kLeastNear, camera.zNear));
     if (camera.orthographic && !(camera.zFar > camera.zNear)) {
         entry.failWith(fmt::format("expected far > near, got {} and {}", camera.zFar, camera.zNear));
     }
