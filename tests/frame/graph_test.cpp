@@ -208,7 +208,8 @@ TEST_CASE("frame graph: what compute writes reaches tables and the arguments of 
     graph.addPass("build").write(table, Access::computeStorageWrite, 0).write(arguments, Access::computeStorageWrite, 1);
     graph.addPass("draw").read(table, Access::tableRead).read(arguments, Access::indirectRead).clear(color, Access::colorWrite, kClear);
     addOutput(graph, color);
-    const auto& barriers = graph.compile().passes[1].barriers;
+    const CompiledGraph compiled = graph.compile();
+    const auto& barriers = compiled.passes[1].barriers;
     const auto to = [&](BufferId buffer) { return std::ranges::find(barriers, buffer.index, &Barrier::resource)->dstStages; };
     CHECK(bool(to(table) & vk::PipelineStageFlagBits2::eVertexShader));
     CHECK(bool(to(table) & vk::PipelineStageFlagBits2::eFragmentShader));
