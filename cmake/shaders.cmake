@@ -1,18 +1,22 @@
 # luciole_shaders(TARGET FILES...): compiles GLSL to SPIR-V, warnings as errors, and embeds it: gpu::shaderCode finds each
-# by its path below src/. Headers are tracked, so touching one rebuilds just what includes it.
+# by its path below src/. A variant, FILE+WORD+..., has the words defined as macros and is found by that name. Headers are
+# tracked, so touching one rebuilds just what includes it.
 function(luciole_shaders target)
     set(registry ${CMAKE_CURRENT_BINARY_DIR}/shader_registry.cpp)
     set(words "")
     set(rows "")
     foreach(file ${ARGN})
-        set(source ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-        cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src OUTPUT_VARIABLE name)
+        string(REPLACE "+" ";-D" definitions ${file})
+        list(POP_FRONT definitions source)
+        set(source ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+        set(name ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+        cmake_path(RELATIVE_PATH name BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src)
         set(output ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
         cmake_path(GET output PARENT_PATH folder)
         file(MAKE_DIRECTORY ${folder})
         add_custom_command(
             OUTPUT ${output}
-            COMMAND Vulkan::glslc --target-env=vulkan1.3 -O -Werror -mfmt=c -I ${PROJECT_SOURCE_DIR}/src
+            COMMAND Vulkan::glslc --target-env=vulkan1.3 -O -Werror -mfmt=c -I ${PROJECT_SOURCE_DIR}/src ${definitions}
                     -MD -MF ${output}.d -MT ${output} -o ${output} ${source}
             DEPENDS ${source}
             DEPFILE ${output}.d

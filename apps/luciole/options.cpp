@@ -89,7 +89,7 @@ void addSettingOptions(CLI::App& command, SettingOptions& options) {
         const std::string help = fmt::format("{} [{}]", setting.help, setting.get(defaults));
         CLI::Option* option = addParsed(command, flag, read, help)->group("Settings");
         if (setting.type == "choice") option->type_name(fmt::format("{}", fmt::join(setting.choices, "|")));
-        if (setting.type == "number") option->type_name("NUMBER");
+        if (setting.type == "number" || setting.type == "whole") option->type_name("NUMBER");
         if (setting.type == "name") option->type_name("NAME");
         // Takes no word after it, only "=on" or "=off": the next word may be the scene.
         if (setting.type == "switch") option->type_name("[=off]")->expected(0);

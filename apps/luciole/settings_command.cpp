@@ -12,7 +12,7 @@ namespace {
 std::string valuesOf(const Setting& setting, std::string_view separator) {
     if (setting.type == "choice") return fmt::format("{}", fmt::join(setting.choices, separator));
     if (setting.type == "switch") return fmt::format("on{}off", separator);
-    if (setting.type == "number") return fmt::format("{} to {}", setting.low, setting.high);
+    if (setting.type == "number" || setting.type == "whole") return fmt::format("{} to {}", setting.low, setting.high);
     return "a name";
 }
 

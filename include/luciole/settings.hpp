@@ -10,6 +10,14 @@ namespace luciole {
 enum class GBufferLayout : uint8_t { calver, floatPosition, compact };
 enum class ToneMap : uint8_t { none, reinhard, aces, agx };
 enum class LightBufferFormat : uint8_t { rgba32f, rgba16f };
+/// How light-indexed deferred rendering keeps several indices at a pixel (docs/techniques/light-indexed.md).
+enum class LidrPacking : uint8_t { bitShift, maxBlend, maxBlendSorted, cpuSort, list };
+enum class LidrIndices : uint8_t { automatic, n15, n255, n65535 };  ///< largest index that is told apart
+enum class LidrCover : uint8_t { automatic, surface, frontFaces };  ///< lights that reach the surface; all before it
+enum class LidrTypes : uint8_t { flag, one, targets };              ///< what becomes of several types of light
+enum class LidrTables : uint8_t { buffers, textures };              ///< where surfaces read lights by index
+enum class OnOverflow : uint8_t { exact, priority, fail };
+enum class Msaa : uint8_t { x1, x4 };  ///< samples a pixel
 
 /// How a picture is made. Each member is one row of `settingsTable`.
 struct RenderSettings {
@@ -17,19 +25,28 @@ struct RenderSettings {
     GBufferLayout gbuffer = GBufferLayout::compact;
     LightBufferFormat lightBuffer = LightBufferFormat::rgba32f;
     bool depthPrepass = false;
+    Msaa msaa = Msaa::x1;  ///< forward techniques only
+    LidrPacking lidrPacking = LidrPacking::bitShift;
+    uint32_t overlap = 4;  ///< indices a pixel
+    LidrIndices indices = LidrIndices::automatic;
+    OnOverflow onOverflow = OnOverflow::exact;
+    LidrCover lidrCover = LidrCover::automatic;
+    LidrTypes lidrTypes = LidrTypes::flag;
+    LidrTables lidrTables = LidrTables::buffers;
     bool cullLights = true;
     float exposureEv = 0;  ///< added to Scene::exposureEv
     ToneMap toneMap = ToneMap::aces;
     bool measure = false;
+    bool operator==(const RenderSettings&) const = default;
 };
 
 /// One setting: the command line, settings files and the docs all come from this table.
 struct Setting {
     std::string_view name;      ///< kebab-case; `--name` on the command line, the key in a settings file
     std::string_view help;      ///< one line
-    std::string_view type;      ///< "choice", "number", "switch" (on, off), or "name": checked by the renderer
+    std::string_view type;      ///< "choice", "number", "whole" (number), "switch" (on, off), or "name": checked by the renderer
     std::vector<std::string> choices;  ///< "choice" only
-    double low, high;           ///< "number" only
+    double low, high;           ///< "number" and "whole" only
     std::string (*get)(const RenderSettings&);
     void (*set)(RenderSettings&, std::string_view value);  ///< `value` has passed the checks
 };

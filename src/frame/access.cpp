@@ -28,6 +28,8 @@ const AccessInfo kTable[] = {
      {}, false},
     {"fragment storage read", kDrawStages, Mask::eShaderStorageRead, Layout::eGeneral, ImageUse::eStorage,
      BufferUse::eStorageBuffer, false},
+    {"fragment storage write", Stage::eFragmentShader, Mask::eShaderStorageRead | Mask::eShaderStorageWrite, Layout::eGeneral, {},
+     BufferUse::eStorageBuffer, true},
     {"table read", kDrawStages, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eUndefined, {},
      BufferUse::eStorageBuffer | BufferUse::eUniformBuffer, false},
     {"compute table read", Stage::eComputeShader, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eUndefined, {},

@@ -12,6 +12,7 @@ enum class Access : uint8_t {
     stencilWrite,         ///< depth attachment, tested only, whose stencil is tested and written
     fragmentSampled,      ///< texture in fragment shaders; also of a depth image that is tested in the same pass
     fragmentStorageRead,  ///< storage buffer in vertex and fragment shaders
+    fragmentStorageWrite, ///< storage buffer that fragment shaders write (and perhaps read)
     tableRead,            ///< table of the frame's set, uniform or storage buffer, in vertex and fragment shaders
     computeTableRead,     ///< the same in compute shaders
     indirectRead,         ///< arguments of a draw

@@ -36,11 +36,13 @@ void Executor::createResources() {
             }
         if (resource.isImage())
             images_.emplace(r, gpu::makeImage(context_, resource.name,
-                                              {.format = resource.image.format, .extent = resource.image.extent, .usage = imageUsage}));
+                                              {.format = resource.image.format, .extent = resource.image.extent, .usage = imageUsage, .samples = resource.image.samples}));
         else if (resource.imported)
             continue;
         else if (graph_.isOutput(r))
             hostBuffers_.emplace(r, gpu::MappedBuffer(context_, resource.name, resource.bufferBytes, bufferUsage, gpu::Residence::hostCached));
+        else if (!resource.content.empty())
+            buffers_.emplace(r, gpu::uploadBuffer(context_, resource.name, resource.content, bufferUsage));
         else
             buffers_.emplace(r, gpu::makeBuffer(context_, resource.name, resource.bufferBytes, bufferUsage));
     }
@@ -131,11 +133,11 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     std::vector<vk::Format> colorFormats;
     vk::RenderingAttachmentInfo depth, stencil;
     vk::Format depthFormat = vk::Format::eUndefined;
-    vk::Extent2D extent;
+    ImageDesc target;  // what all attachments have in common
     for (const Use& use : pass.uses) {
         if (!isAttachment(use.access)) continue;
         const Resource& resource = graph_.resources()[use.resource];
-        extent = resource.image.extent;
+        target = resource.image;
         const vk::RenderingAttachmentInfo attachment{
             .imageView = *images_.at(use.resource).view,
             .imageLayout = layoutOf(use.access, resource.image.format),
@@ -152,10 +154,11 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
             colorFormats.push_back(resource.image.format);
         }
     }
+    const vk::Extent2D extent = target.extent;
     const bool renders = extent.width != 0;
     const bool computes = std::ranges::any_of(
         pass.uses, [](const Use& use) { return bool(infoOf(use.access).stages & vk::PipelineStageFlagBits2::eComputeShader); });
-    PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, extent);
+    PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, target);
     if (renders || computes)
         commands.bindDescriptorSets(renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute, pipelines_.layout(),
                                     0, {frameSet, passSets_[index]}, nullptr);

@@ -62,13 +62,16 @@ void checkAttachments(const FrameGraph& graph, const Pass& pass) {
         if (first->image.extent != target.image.extent)
             misuse(pass, target, fmt::format("expected the size of {}, {}x{}, found {}x{}", first->name, first->image.extent.width,
                                              first->image.extent.height, target.image.extent.width, target.image.extent.height));
+        if (first->image.samples != target.image.samples)
+            misuse(pass, target, fmt::format("expected the samples of {}, {}, found {}", first->name, uint32_t(first->image.samples),
+                                             uint32_t(target.image.samples)));
     }
 }
 
 }  // namespace
 
 uint64_t Resource::bytes() const {
-    return isImage() ? uint64_t(image.extent.width) * image.extent.height * gpu::bytesPerTexel(image.format) : bufferBytes;
+    return isImage() ? uint64_t(image.extent.width) * image.extent.height * gpu::bytesPerTexel(image.format) * uint32_t(image.samples) : bufferBytes;
 }
 
 std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass, uint32_t resource) {
@@ -100,11 +103,13 @@ PassBuilder& PassBuilder::use(const Use& use, bool isImage, bool writes) {
         misuse(pass, target, fmt::format("{} declared as a {}", info.name, writes ? "write" : "read"));
     if (target.isImage() != isImage || (isImage ? !info.imageUsage : !info.bufferUsage))
         misuse(pass, target, fmt::format("{} is not for {}", info.name, isImage ? "images" : "buffers"));
+    if (writes && !target.content.empty()) misuse(pass, target, fmt::format("{} of a constant", info.name));
     const bool needsContent = use.access == Access::colorBlend || use.access == Access::depthWrite || use.access == Access::stencilWrite;
     if (needsContent && use.overwrites && !use.clear)
         misuse(pass, target, fmt::format("{} needs what is there: update or clear it", info.name));
     const bool sampled = use.access == Access::fragmentSampled || use.access == Access::computeSampled;
-    const bool stored = !isImage && (use.access == Access::fragmentStorageRead || use.access == Access::computeStorageRead ||
+    const bool stored = !isImage && (use.access == Access::fragmentStorageRead || use.access == Access::fragmentStorageWrite ||
+                                     use.access == Access::computeStorageRead ||
                                      use.access == Access::computeStorageWrite);
     const uint32_t slots = sampled ? shared::kPassSampledCount : stored ? shared::kPassStorageCount : 0;
     if (slots ? use.binding >= slots : use.binding != kNoBinding)
@@ -152,6 +157,14 @@ BufferId FrameGraph::importBuffer(std::string name, uint64_t bytes, vk::Buffer h
     return buffer;
 }
 
+BufferId FrameGraph::createConstantBuffer(std::string name, std::span<const uint32_t> values) {
+    const BufferId buffer = createBuffer(std::move(name), values.size_bytes());
+    const auto bytes = std::as_bytes(values);
+    resources_[buffer.index].content.assign(bytes.begin(), bytes.end());
+    resources_[buffer.index].content.resize(resources_[buffer.index].bufferBytes);
+    return buffer;
+}
+
 PassBuilder FrameGraph::addPass(std::string name) {
     passes_.push_back({.name = std::move(name)});
     return PassBuilder(*this, uint32_t(passes_.size() - 1));
@@ -178,7 +191,7 @@ CompiledGraph FrameGraph::compile() const {
             compiled.used[resource] = true;
             CompiledPass& pass = compiled.passes[epoch.firstPass];
             const bool first = &epoch == &epochs.front();
-            if (first && !epoch.use.overwrites)
+            if (first && !epoch.use.overwrites && resources_[resource].content.empty())
                 misuse(passes_[pass.pass], resources_[resource], "used before anything was written to it");
             if (!first || resources_[resource].isImage())
                 pass.barriers.push_back({resource, previous.stages, epoch.use.stages, writesOf(previous.access), epoch.use.access,

@@ -2,6 +2,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,17 @@ struct BufferId {
 struct ImageDesc {
     vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 
-/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer. `imported`: somebody else's buffer.
+/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer. `imported`: somebody else's buffer. `content`: what a
+/// buffer holds from the start.
 struct Resource {
     std::string name;
     ImageDesc image;
     uint64_t bufferBytes = 0;
     vk::Buffer imported = {};
+    std::vector<std::byte> content = {};
     bool isImage() const { return bufferBytes == 0; }
     uint64_t bytes() const;
 };
@@ -100,9 +104,12 @@ struct CompiledGraph {
 class FrameGraph {
 public:
     ImageId createImage(std::string name, ImageDesc desc);
+    const ImageDesc& descOf(ImageId image) const { return resources_.at(image.index).image; }
     BufferId createBuffer(std::string name, uint64_t bytes);
     /// A buffer that the frame fills and that outlives it, such as one that the frame's set names.
     BufferId importBuffer(std::string name, uint64_t bytes, vk::Buffer handle);
+    /// A buffer that holds `values` when the first frame begins, and that no pass may change.
+    BufferId createConstantBuffer(std::string name, std::span<const uint32_t> values);
     PassBuilder addPass(std::string name);
 
     /// Marks a result that the host reads after the frame; passes that lead to no result are dropped.

@@ -12,22 +12,23 @@ namespace luciole::frame {
 class PassContext {
 public:
     PassContext(const vk::raii::CommandBuffer& commandBuffer, gpu::Pipelines& pipelines, const Executor& executor,
-                const Pass& pass, std::vector<vk::Format> colors, vk::Format depth, vk::Extent2D extent)
+                const Pass& pass, std::vector<vk::Format> colors, vk::Format depth, const ImageDesc& target)
         : commands(commandBuffer), pipelines_(pipelines), executor_(executor), pass_(pass), colors_(std::move(colors)), depth_(depth),
-          extent_(extent) {}
+          target_(target) {}
 
     const vk::raii::CommandBuffer& commands;  ///< for whatever is not wrapped here; draws are, so that they are counted
-    vk::Extent2D extent() const { return extent_; }  ///< of the attachments; zero without any
+    vk::Extent2D extent() const { return target_.extent; }  ///< of the attachments; zero without any
 
     /// Handles of what the pass declared. \throws std::logic_error for anything else
     vk::Image image(ImageId id) const { return requireDeclared(id.index), executor_.image(id); }
     vk::Buffer buffer(BufferId id) const { return requireDeclared(id.index), executor_.buffer(id); }
 
     struct Draw {
-        const char* vertex;
-        const char* fragment = "";
+        std::string vertex;
+        std::string fragment = {};
         bool meshVertices = false;
-        bool additive = false;
+        gpu::Blend blend = gpu::Blend::replace;
+        uint8_t channels = 0xf;  ///< of the attachments, those that are written
         bool depthClamp = false;
         std::vector<uint32_t> constants = {};
     };
@@ -37,9 +38,10 @@ public:
         bool marksStencil;
     };
     Prepared prepare(const Draw& draw) {
-        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices,
-                                .additive = draw.additive, .depthClamp = draw.depthClamp, .constants = draw.constants, .colors = colors_, .depth = depth_}),
-                !colors_.empty() && *draw.fragment == 0};
+        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend,
+                                .channels = draw.channels, .depthClamp = draw.depthClamp, .constants = draw.constants,
+                                .colors = colors_, .depth = depth_, .samples = target_.samples}),
+                !colors_.empty() && draw.fragment.empty()};
     }
     void bind(const Prepared& prepared) {
         marksStencil_ = prepared.marksStencil;
@@ -86,10 +88,11 @@ public:
     /// One triangle that covers the target, for full_screen.vert.
     void drawFullScreen() { draw(3); }
 
-    /// One dispatch of `groups` workgroups along x. Only in a pass without attachments.
+    /// One dispatch of at least `groups` workgroups, in rows along x. Only in a pass without attachments.
     void dispatch(const char* shader, const std::vector<uint32_t>& constants, uint32_t groups) {
+        constexpr uint32_t kRow = 65535;  // the most along x that every device takes
         commands.bindPipeline(vk::PipelineBindPoint::eCompute, pipelines_.compute(shader, constants));
-        commands.dispatch(groups, 1, 1);
+        commands.dispatch(std::min(groups, kRow), (groups + kRow - 1) / kRow, 1);
     }
 
     const DrawCounts& counts() const { return counts_; }
@@ -110,7 +113,7 @@ private:
     const Pass& pass_;
     std::vector<vk::Format> colors_;
     vk::Format depth_;
-    vk::Extent2D extent_;
+    ImageDesc target_;
     DrawCounts counts_;
     bool marksStencil_ = false;
 };

@@ -18,9 +18,9 @@ const uint kFrameVolumeVertices = 10u;
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names
-const uint kPassSampledCount = 8u;
-const uint kPassStorage = 8u;       // storage buffers, likewise
-const uint kPassStorageCount = 4u;
+const uint kPassSampledCount = 16u;
+const uint kPassStorage = 16u;      // storage buffers, likewise
+const uint kPassStorageCount = 6u;
 
 const uint kMaterialSet = 2u;     // 5 sampled images
 const uint kMaterialTextures = 5u;

@@ -95,9 +95,12 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     if (!v13.maintenance4) return "lacks the feature maintenance4";
     if (!v13.synchronization2) return "lacks the feature synchronization2";
     if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
-    // Those of bindings.shared.h; of 4, the least that Vulkan guarantees, no desktop driver is known.
-    if (properties.limits.maxPerStageDescriptorStorageBuffers < 12)
-        return fmt::format("expected 12 storage buffers a stage, found {}", properties.limits.maxPerStageDescriptorStorageBuffers);
+    // Those of bindings.shared.h; of the least that Vulkan guarantees, 4 and 16, no desktop driver is known.
+    if (properties.limits.maxPerStageDescriptorStorageBuffers < 14)
+        return fmt::format("expected 14 storage buffers a stage, found {}", properties.limits.maxPerStageDescriptorStorageBuffers);
+    if (properties.limits.maxPerStageDescriptorSampledImages < 22 || properties.limits.maxPerStageDescriptorSamplers < 22)
+        return fmt::format("expected 22 sampled images and samplers a stage, found {} and {}",
+                           properties.limits.maxPerStageDescriptorSampledImages, properties.limits.maxPerStageDescriptorSamplers);
     if (properties.limits.maxImageDimension2D < 8192)
         return fmt::format("expected images of 8192 texels, found {}", properties.limits.maxImageDimension2D);
     const auto blendable = vk::FormatFeatureFlagBits::eColorAttachmentBlend;
@@ -170,7 +173,11 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     vk::PhysicalDeviceVulkan13Features v13{
         .shaderTerminateInvocation = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .separateDepthStencilLayouts = true};
-    const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = physical.getFeatures().fullDrawIndexUint32, .depthClamp = true};
+    const vk::PhysicalDeviceFeatures has = physical.getFeatures();
+    const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32,
+                                              .sampleRateShading = has.sampleRateShading,
+                                              .depthClamp = true,
+                                              .fragmentStoresAndAtomics = has.fragmentStoresAndAtomics};
     const vk::DeviceCreateInfo info{
         .pNext = &v12, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue, .pEnabledFeatures = &features};
     return vk::raii::Device(physical, info);
@@ -202,6 +209,14 @@ Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMess
         device_, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queueFamily});
     memory_ = physical_.getMemoryProperties();
     limits_ = physical_.getProperties().limits;
+    const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
+    fragmentStores_ = features.fragmentStoresAndAtomics;
+    sampleCounts_ = vk::SampleCountFlagBits::e1;
+    if (features.sampleRateShading)
+        sampleCounts_ |= limits_.framebufferColorSampleCounts & limits_.framebufferDepthSampleCounts &
+                         limits_.framebufferStencilSampleCounts & limits_.sampledImageColorSampleCounts &
+                         limits_.sampledImageDepthSampleCounts;
+    driverUuid_ = physical_.getProperties().pipelineCacheUUID;
     maxBufferBytes_ = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan13Properties>()
                           .get<vk::PhysicalDeviceVulkan13Properties>()
                           .maxBufferSize;

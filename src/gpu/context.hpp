@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -25,6 +26,10 @@ public:
     const vk::raii::Queue& queue() const { return queue_; }
     const vk::raii::CommandPool& commandPool() const { return commandPool_; }
     bool labels() const { return labels_; }
+    bool fragmentStores() const { return fragmentStores_; }  ///< fragment shaders may write to buffers
+    vk::SampleCountFlags sampleCounts() const { return sampleCounts_; }  ///< of colour and depth, with shading by sample
+    vk::FormatProperties formatProperties(vk::Format format) const { return physical_.getFormatProperties(format); }
+    const std::array<uint8_t, VK_UUID_SIZE>& driverUuid() const { return driverUuid_; }
     uint64_t maxBufferBytes() const { return maxBufferBytes_; }
     uint64_t timestampMask() const { return timestampMask_; }  ///< valid bits of a timestamp; 0: the queue has none
 
@@ -82,6 +87,9 @@ private:
     vk::PhysicalDeviceLimits limits_;
     DeviceInfo info_;
     bool labels_ = false;
+    bool fragmentStores_ = false;
+    vk::SampleCountFlags sampleCounts_;
+    std::array<uint8_t, VK_UUID_SIZE> driverUuid_{};
     uint64_t maxBufferBytes_ = 0;
     uint64_t timestampMask_ = 0;
     mutable uint64_t allocatedBytes_ = 0;

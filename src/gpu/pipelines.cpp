@@ -62,6 +62,22 @@ constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
     {5, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Vertex, color)},
 };
 
+vk::PipelineColorBlendAttachmentState blendState(const PipelineKey& key) {
+    const vk::BlendFactor kept = key.blend == Blend::over    ? vk::BlendFactor::eOneMinusSrcAlpha
+                                 : key.blend == Blend::shift ? vk::BlendFactor::eConstantColor
+                                                             : vk::BlendFactor::eOne;
+    const vk::BlendOp op = key.blend == Blend::max ? vk::BlendOp::eMax : vk::BlendOp::eAdd;
+    return {.blendEnable = key.blend != Blend::replace,
+            .srcColorBlendFactor = vk::BlendFactor::eOne,
+            .dstColorBlendFactor = kept,
+            .colorBlendOp = op,
+            .srcAlphaBlendFactor = vk::BlendFactor::eOne,
+            .dstAlphaBlendFactor = kept,  // of the constant its alpha
+            .alphaBlendOp = op,
+            // The bits of vk::ColorComponentFlagBits are those of the channels.
+            .colorWriteMask = vk::ColorComponentFlags(key.fragment.empty() ? 0 : key.channels)};
+}
+
 }  // namespace
 
 std::vector<vk::DescriptorSet> allocateSets(const Context& context, const vk::raii::DescriptorPool& pool,
@@ -144,26 +160,17 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo rasterization{
         .depthClampEnable = key.depthClamp, .polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};
-    const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = vk::SampleCountFlagBits::e1};
+    const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = key.samples};
     const vk::PipelineDepthStencilStateCreateInfo depth{};
-    using Channel = vk::ColorComponentFlagBits;
-    const vk::PipelineColorBlendAttachmentState blend{
-        .blendEnable = key.additive,
-        .srcColorBlendFactor = vk::BlendFactor::eOne,
-        .dstColorBlendFactor = vk::BlendFactor::eOne,
-        .colorBlendOp = vk::BlendOp::eAdd,
-        .srcAlphaBlendFactor = vk::BlendFactor::eOne,
-        .dstAlphaBlendFactor = vk::BlendFactor::eOne,
-        .alphaBlendOp = vk::BlendOp::eAdd,
-        .colorWriteMask = key.fragment.empty() ? vk::ColorComponentFlags() : Channel::eR | Channel::eG | Channel::eB | Channel::eA};
-    const std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blend);
+    const std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blendState(key));
     const vk::PipelineColorBlendStateCreateInfo blending{.attachmentCount = uint32_t(blends.size()), .pAttachments = blends.data()};
     const vk::DynamicState dynamics[] = {vk::DynamicState::eViewport,        vk::DynamicState::eScissor,
                                          vk::DynamicState::eCullMode,        vk::DynamicState::eFrontFace,
                                          vk::DynamicState::eDepthTestEnable, vk::DynamicState::eDepthWriteEnable,
                                          vk::DynamicState::eDepthCompareOp,  vk::DynamicState::eStencilTestEnable,
                                          vk::DynamicState::eStencilOp,       vk::DynamicState::eStencilCompareMask,
-                                         vk::DynamicState::eStencilWriteMask, vk::DynamicState::eStencilReference};
+                                         vk::DynamicState::eStencilWriteMask, vk::DynamicState::eStencilReference,
+                                         vk::DynamicState::eBlendConstants};
     const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = uint32_t(std::size(dynamics)), .pDynamicStates = dynamics};
     const vk::PipelineRenderingCreateInfo formats{.colorAttachmentCount = uint32_t(key.colors.size()),
                                                   .pColorAttachmentFormats = key.colors.data(),

@@ -12,16 +12,28 @@ namespace luciole::gpu {
 /// Finds SPIR-V by name; made by luciole_shaders (cmake/shaders.cmake).
 using ShaderLibrary = std::span<const uint32_t> (*)(std::string_view name);
 
-/// What tells one pipeline from another. Cull mode, front face, depth and stencil state are dynamic and not in here.
+/// What becomes of a colour that is there: dst' of src and dst, each channel by itself.
+enum class Blend : uint8_t {
+    replace,  ///< src
+    add,      ///< src + dst
+    over,     ///< src + (1 - src.a) dst: what is behind a premultiplied colour
+    shift,    ///< src + c dst, c the blend constant
+    max,      ///< max(src, dst)
+};
+
+/// What tells one pipeline from another. Cull mode, front face, depth and stencil state and the blend constant are dynamic and not
+/// in here.
 struct PipelineKey {
     std::string vertex;
     std::string fragment;               ///< empty: nothing is written to colour attachments
     bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
-    bool additive = false;              ///< colour = source + destination
+    Blend blend = Blend::replace;
+    uint8_t channels = 0xf;             ///< bit i: channel i of the colour attachments is written
     bool depthClamp = false;            ///< depth is clamped to [0, 1] where it would be clipped
     std::vector<uint32_t> constants;    ///< specialization constants 0, 1, ...
     std::vector<vk::Format> colors;
     vk::Format depth = vk::Format::eUndefined;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
     auto operator<=>(const PipelineKey&) const = default;
 };
 

@@ -50,8 +50,11 @@ vk::ImageAspectFlags aspectOf(vk::Format format) {
 
 uint32_t bytesPerTexel(vk::Format format) {
     switch (format) {
+        case vk::Format::eR8Unorm: return 1;
+        case vk::Format::eR8G8Unorm:
         case vk::Format::eR16Unorm: return 2;
         case vk::Format::eD32Sfloat:
+        case vk::Format::eR16G16Unorm:
         case vk::Format::eR8G8B8A8Unorm:
         case vk::Format::eR8G8B8A8Srgb: return 4;
         case vk::Format::eR16G16B16A16Unorm:
@@ -77,7 +80,7 @@ Image makeImage(const Context& context, const std::string& name, const ImageRequ
                                                       .extent = {request.extent.width, request.extent.height, 1},
                                                       .mipLevels = request.mipLevels,
                                                       .arrayLayers = 1,
-                                                      .samples = vk::SampleCountFlagBits::e1,
+                                                      .samples = request.samples,
                                                       .tiling = vk::ImageTiling::eOptimal,
                                                       .usage = request.usage});
     const auto requirements = image.handle.getMemoryRequirements();

@@ -40,6 +40,7 @@ struct ImageRequest {
     vk::Extent2D extent;
     vk::ImageUsageFlags usage;
     uint32_t mipLevels = 1;
+    vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 Image makeImage(const Context& context, const std::string& name, const ImageRequest& request);
 

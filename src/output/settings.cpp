@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <luciole/error.hpp>
 #include <luciole/settings.hpp>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,13 @@ namespace {
 // The names of the choices, each list in the order of its enum.
 constexpr std::array<std::string_view, 3> kGBufferNames{"calver", "float", "compact"};
 constexpr std::array<std::string_view, 2> kLightBufferNames{"rgba32f", "rgba16f"};
+constexpr std::array<std::string_view, 5> kLidrPackingNames{"bit-shift", "max-blend", "max-blend-sorted", "cpu-sort", "list"};
+constexpr std::array<std::string_view, 4> kLidrIndicesNames{"auto", "15", "255", "65535"};
+constexpr std::array<std::string_view, 3> kLidrCoverNames{"auto", "surface", "front-faces"};
+constexpr std::array<std::string_view, 3> kLidrTypesNames{"flag", "one", "targets"};
+constexpr std::array<std::string_view, 2> kLidrTablesNames{"buffers", "textures"};
+constexpr std::array<std::string_view, 3> kOnOverflowNames{"exact", "priority", "fail"};
+constexpr std::array<std::string_view, 2> kMsaaNames{"1", "4"};
 constexpr std::array<std::string_view, 4> kToneMapNames{"none", "reinhard", "aces", "agx"};
 
 template <auto Member, const auto& Names>
@@ -62,6 +70,17 @@ Setting number(std::string_view name, std::string_view help, double low, double 
             .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = *parseNumber(value); }};
 }
 
+template <uint32_t RenderSettings::*Member>
+Setting whole(std::string_view name, std::string_view help, double low, double high) {
+    return {.name = name,
+            .help = help,
+            .type = "whole",
+            .low = low,
+            .high = high,
+            .get = [](const RenderSettings& settings) { return fmt::format("{}", settings.*Member); },
+            .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = uint32_t(*parseNumber(value)); }};
+}
+
 bool accepts(const Setting& setting, std::string_view value) {
     if (setting.type == "choice")
         return std::find(setting.choices.begin(), setting.choices.end(), value) != setting.choices.end();
@@ -70,6 +89,10 @@ bool accepts(const Setting& setting, std::string_view value) {
         const std::optional<float> number = parseNumber(value);
         return number && *number >= setting.low && *number <= setting.high;  // NaN fails
     }
+    if (setting.type == "whole") {
+        const std::optional<float> number = parseNumber(value);
+        return number && *number >= setting.low && *number <= setting.high && *number == std::floor(*number);
+    }
     return !value.empty();
 }
 
@@ -77,6 +100,7 @@ std::string expectation(const Setting& setting) {
     if (setting.type == "choice") return fmt::format("one of {}", fmt::join(setting.choices, ", "));
     if (setting.type == "switch") return "on or off";
     if (setting.type == "number") return fmt::format("a number from {} to {}", setting.low, setting.high);
+    if (setting.type == "whole") return fmt::format("a whole number from {} to {}", setting.low, setting.high);
     return "a name";
 }
 
@@ -89,7 +113,7 @@ const Setting* findSetting(std::string_view name) {
 /// A JSON value in the words that setSetting takes; empty where its type does not fit the setting.
 std::string textOf(const Setting& setting, const nlohmann::json& value) {
     if (setting.type == "switch") return value.is_boolean() ? (value.get<bool>() ? "on" : "off") : "";
-    if (setting.type == "number") return value.is_number() ? value.dump() : "";
+    if (setting.type == "number" || setting.type == "whole") return value.is_number() ? value.dump() : "";
     return value.is_string() ? value.get<std::string>() : "";
 }
 
@@ -105,6 +129,14 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::gbuffer, kGBufferNames>("gbuffer", "what the geometry phase stores per pixel, and how"),
         choice<&RenderSettings::lightBuffer, kLightBufferNames>("light-buffer", "format that the lights are summed in"),
         onOff<&RenderSettings::depthPrepass>("depth-prepass", "draw depth alone first, so each pixel is shaded once"),
+        choice<&RenderSettings::msaa, kMsaaNames>("msaa", "samples a pixel, of forward techniques"),
+        choice<&RenderSettings::lidrPacking, kLidrPackingNames>("lidr-packing", "light-indexed: how several light indices share a pixel"),
+        whole<&RenderSettings::overlap>("overlap", "light-indexed: light indices that a pixel has room for", 1, 16),
+        choice<&RenderSettings::indices, kLidrIndicesNames>("indices", "light-indexed: lights that indices tell apart"),
+        choice<&RenderSettings::onOverflow, kOnOverflowNames>("on-overflow", "light-indexed, where lights do not fit: take a path that holds them, keep the important ones, or fail"),
+        choice<&RenderSettings::lidrCover, kLidrCoverNames>("lidr-cover", "light-indexed: which lights a pixel indexes"),
+        choice<&RenderSettings::lidrTypes, kLidrTypesNames>("lidr-types", "light-indexed: indices for all types of light by a flag, for points only, or in targets of their own"),
+        choice<&RenderSettings::lidrTables, kLidrTablesNames>("lidr-tables", "light-indexed: where surfaces read the data of lights"),
         onOff<&RenderSettings::cullLights>("cull-lights", "leave out lights whose shape covers no pixel; off to measure what that saves"),
         number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),
         choice<&RenderSettings::toneMap, kToneMapNames>("tonemap", "how radiance becomes a picture"),

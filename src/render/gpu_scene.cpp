@@ -34,6 +34,17 @@ std::array<TextureRole, kTextureSlots> texturesOf(const Material& material) {
 
 bool mirrored(const Object& object) { return determinant(dmat3(object.worldFromObject)) < 0; }
 
+/// The middle of the object's bounds.
+vec3 centerOf(const Scene& scene, const Object& object) {
+    vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
+        const vec3 p(object.worldFromObject * vec4(vertex.position, 1));
+        low = min(low, p);
+        high = max(high, p);
+    }
+    return 0.5f * (low + high);
+}
+
 vk::SamplerAddressMode addressMode(Wrap wrap) {
     switch (wrap) {
         case Wrap::mirroredRepeat: return vk::SamplerAddressMode::eMirroredRepeat;
@@ -117,17 +128,23 @@ void GpuScene::uploadObjects(const Scene& scene) {
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < scene.objects.size(); ++i)
         if (isDrawn(scene.objects[i])) order.push_back(i);
+    const auto blends = [&](uint32_t i) { return scene.materials[scene.objects[i].material].alphaMode == AlphaMode::blend; };
     const auto batchOf = [&](uint32_t i) {
         const Object& object = scene.objects[i];
-        return std::tuple(object.material, object.mesh, mirrored(object));
+        return std::tuple(blends(i), object.material, object.mesh, mirrored(object));
     };
     std::ranges::stable_sort(order, {}, batchOf);
     std::vector<ObjectConstants> table;
     for (const uint32_t i : order) {
-        const auto [material, mesh, flipped] = batchOf(i);
+        const auto [blended, material, mesh, flipped] = batchOf(i);
+        const Batch alone{mesh, material, flipped, uint32_t(table.size()), 1};
         const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
-        if (!joins) batches_.push_back({mesh, material, flipped, uint32_t(table.size()), 0});
-        ++batches_.back().objectCount;
+        if (blended)
+            blended_.push_back({alone, centerOf(scene, scene.objects[i])});
+        else if (joins)
+            ++batches_.back().objectCount;
+        else
+            batches_.push_back(alone);
         table.push_back(objectConstants(scene.objects[i]));
     }
     objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eStorageBuffer);
@@ -209,7 +226,7 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = infos.data()},
             nullptr);
-        drawMaterials_.push_back({uint32_t(material.surface), present, material.alphaMode == AlphaMode::mask,
+        drawMaterials_.push_back({uint32_t(material.surface), present, uint32_t(material.equation), material.alphaMode == AlphaMode::mask,
                                   material.doubleSided, sets[i]});
     }
 }
@@ -272,6 +289,8 @@ void GpuScene::setView(const View& view, const RenderSettings& settings) {
     viewConstants_.cullLights = settings.cullLights;
     viewConstants_.slack = viewSlack(view, settings.gbuffer);
     view_.write(std::span<const ViewConstants>(&viewConstants_, 1));
+    const vec3 backwards(view.camera.worldFromView[2]);
+    std::ranges::stable_sort(blended_, {}, [&](const BlendedObject& object) { return dot(object.centerWorld, backwards); });
 }
 
 std::vector<LightSlice> GpuScene::slices(uint32_t first, uint32_t count) const {
@@ -290,31 +309,66 @@ std::vector<LightSlice> GpuScene::slices(uint32_t first, uint32_t count) const {
     return slices;
 }
 
-void GpuScene::draw(frame::PassContext& pass, GBufferLayout layout, bool depthOnly) const {
-    if (batches_.empty()) return;
+void GpuScene::bindMeshes(frame::PassContext& pass) const {
     pass.commands.bindVertexBuffers(0, *vertices_.handle, vk::DeviceSize(0));
     pass.commands.bindIndexBuffer(*indices_.handle, 0, vk::IndexType::eUint32);
-    uint32_t bound = kNone;
+}
+
+void GpuScene::bindMaterial(frame::PassContext& pass, uint32_t index, const SurfaceShading& shading) const {
+    const DrawMaterial& material = drawMaterials_[index];
+    std::vector<uint32_t> constants = shading.frame;
+    if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation;
+    constants.insert(constants.end(), {material.surfaceShader, material.masked, material.textures});
+    constants.insert(constants.end(), shading.own.begin(), shading.own.end());
+    pass.bind({.vertex = "render/geometry/surface.vert",
+               .fragment = shading.fragment,
+               .meshVertices = true,
+               .blend = shading.blend,
+               .constants = std::move(constants)});
+    pass.bindSet(kMaterialSet, material.set);
+    pass.push(shading.slice);
+    pass.commands.setCullMode(material.doubleSided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+}
+
+void GpuScene::drawBatch(frame::PassContext& pass, const Batch& batch) const {
+    // Vulkan tells the winding in its own space, Y down, as our clip space is: what is counter-clockwise to the eye is
+    // counter-clockwise to the rasterizer.
+    pass.commands.setFrontFace(batch.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+    const MeshRange& mesh = meshes_[batch.mesh];
+    pass.drawIndexed(mesh.indexCount, batch.objectCount, mesh.firstIndex, mesh.firstVertex, batch.firstObject);
+}
+
+void GpuScene::drawDepth(frame::PassContext& pass) const {
+    if (batches_.empty()) return;
+    bindMeshes(pass);
     for (const Batch& batch : batches_) {
         const DrawMaterial& material = drawMaterials_[batch.material];
-        if (bound != batch.material) {
-            bound = batch.material;
-            if (depthOnly && !material.masked)
-                pass.bind({.vertex = "render/geometry/surface.vert", .meshVertices = true});
-            else
-                pass.bind({.vertex = "render/geometry/surface.vert",
-                           .fragment = depthOnly ? "render/geometry/depth_masked.frag" : "render/geometry/surface.frag",
-                           .meshVertices = true,
-                           .constants = {uint32_t(layout), ~0u, ~0u, material.surfaceShader, material.masked, material.textures}});
-            pass.bindSet(kMaterialSet, material.set);
-            pass.commands.setCullMode(material.doubleSided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-        }
-        // Vulkan tells the winding in its own space, Y down, as our clip space is: what is counter-clockwise to the eye is
-        // counter-clockwise to the rasterizer.
-        pass.commands.setFrontFace(batch.mirrored ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-        const MeshRange& mesh = meshes_[batch.mesh];
-        pass.drawIndexed(mesh.indexCount, batch.objectCount, mesh.firstIndex, mesh.firstVertex, batch.firstObject);
+        bindMaterial(pass, batch.material, {material.masked ? "render/geometry/depth_masked.frag" : "", {0, ~0u, ~0u}});
+        drawBatch(pass, batch);
     }
+}
+
+void GpuScene::drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const {
+    if (batches_.empty()) return;
+    bindMeshes(pass);
+    uint32_t bound = kNone;
+    for (const Batch& batch : batches_) {
+        if (bound != batch.material) bindMaterial(pass, bound = batch.material, shading);
+        drawBatch(pass, batch);
+    }
+}
+
+void GpuScene::drawBlended(frame::PassContext& pass, const std::vector<SurfaceShading>& shadings) const {
+    bindMeshes(pass);
+    for (const BlendedObject& object : blended_)
+        for (const auto culled : {vk::CullModeFlagBits::eFront, vk::CullModeFlagBits::eBack}) {
+            if (culled == vk::CullModeFlagBits::eFront && !drawMaterials_[object.batch.material].doubleSided) continue;
+            for (const SurfaceShading& shading : shadings) {
+                bindMaterial(pass, object.batch.material, shading);
+                pass.commands.setCullMode(culled);
+                drawBatch(pass, object.batch);
+            }
+        }
 }
 
 }  // namespace luciole::render

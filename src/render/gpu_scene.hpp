@@ -20,6 +20,22 @@ struct Batch {
     uint32_t objectCount;
 };
 
+/// An object whose material lets through what is behind it, at its place in the table of objects.
+struct BlendedObject {
+    Batch batch;
+    vec3 centerWorld;
+};
+
+/// How the surfaces of a pass are shaded: a fragment shader that includes surface_shading.glsl.
+struct SurfaceShading {
+    std::string fragment;
+    std::vector<uint32_t> frame;  ///< specialization constants kConstant*
+    std::vector<uint32_t> own = {};  ///< those that come after the material's (surface_input.glsl)
+    gpu::Blend blend = gpu::Blend::replace;
+    bool oneEquation = false;  ///< each material's pipeline knows its own equation only
+    shared::LightSlice slice = {};  ///< pushed to the shader
+};
+
 /// A scene on the device: vertices, textures, and the tables that shaders read (types.shared.h).
 class GpuScene {
 public:
@@ -47,8 +63,13 @@ public:
     std::vector<shared::LightSlice> slices(uint32_t first, uint32_t count) const;
     uint64_t triangles() const { return triangles_; }
 
-    /// Draws every batch with the geometry phase's shaders. `depthOnly`: the depth set-up pass.
-    void draw(frame::PassContext& pass, GBufferLayout layout, bool depthOnly) const;
+    /// Draws the surfaces that hide what is behind them: their depth, or shaded.
+    void drawDepth(frame::PassContext& pass) const;
+    void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const;
+    /// Draws the surfaces that let through what is behind them, the farthest object first, of each its back faces first.
+    bool hasBlended() const { return !blended_.empty(); }
+    /// \param shadings one after the other for each object
+    void drawBlended(frame::PassContext& pass, const std::vector<SurfaceShading>& shadings) const;
 
 private:
     struct MeshRange {
@@ -57,6 +78,7 @@ private:
     };
     struct DrawMaterial {
         uint32_t surfaceShader, textures;
+        uint32_t equation;
         bool masked, doubleSided;
         vk::DescriptorSet set;
     };
@@ -68,6 +90,9 @@ private:
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
     void uploadFunctions(const Scene& scene);
     void createFrameSet(const gpu::Pipelines& pipelines);
+    void bindMeshes(frame::PassContext& pass) const;
+    void bindMaterial(frame::PassContext& pass, uint32_t material, const SurfaceShading& shading) const;
+    void drawBatch(frame::PassContext& pass, const Batch& batch) const;
 
     const gpu::Context& context_;
     gpu::Buffer vertices_, indices_;
@@ -77,6 +102,7 @@ private:
     gpu::MappedBuffer view_;
     gpu::Image functions_;
     std::vector<Batch> batches_;
+    std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
     /// Texels by [image][sRGB]: one image may serve as colour and as data.
     std::vector<std::array<gpu::Image, 2>> images_;

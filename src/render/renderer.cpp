@@ -12,6 +12,7 @@
 #include "output/request.hpp"
 #include "render/geometry/gbuffer.hpp"
 #include "render/gpu_scene.hpp"
+#include "render/lighting/forward.hpp"
 #include "render/lighting/techniques.hpp"
 #include "render/post/post.hpp"
 
@@ -25,10 +26,7 @@ namespace {
 /// What the structure of the frame depends on; everything else is data.
 struct FrameKey {
     uvec2 extent;
-    std::string lighting;
-    GBufferLayout gbuffer;
-    LightBufferFormat lightBuffer;
-    bool depthPrepass;
+    RenderSettings settings;  ///< without those that are data
     bool aovs;
     bool counts;  ///< the technique runs a second time and counts
     bool operator==(const FrameKey&) const = default;
@@ -41,30 +39,32 @@ struct BuiltFrame {
     bool warm = false;
 };
 
-void addDepthPrepass(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey& key, const GBuffer& gbuffer) {
-    graph.addPass("geometry.depth")
-        .clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
-        .record([&scene, layout = key.gbuffer](frame::PassContext& pass) {
+void addDepth(frame::FrameGraph& graph, const GpuScene& scene, const std::string& name, frame::ImageId depth) {
+    graph.addPass(name)
+        .clear(depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
+        .record([&scene](frame::PassContext& pass) {
             pass.depth(vk::CompareOp::eGreaterOrEqual, true);
-            scene.draw(pass, layout, true);
+            scene.drawDepth(pass);
         });
 }
 
 /// Phase 1 (Calver 2003, "Geometry phase"): fills the G-buffer. Material 0 of the cleared targets means "no surface".
-void addGeometry(frame::FrameGraph& graph, const GpuScene& scene, const FrameKey& key, const GBuffer& gbuffer) {
+void addGeometry(frame::FrameGraph& graph, const GpuScene& scene, const GBuffer& gbuffer, const std::vector<uint32_t>& constants, bool depthIsThere) {
     auto pass = graph.addPass("geometry.gbuffer");
     for (const frame::ImageId target : gbuffer.targets)
         pass.clear(target, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
-    if (key.depthPrepass)
+    if (depthIsThere)
         pass.read(gbuffer.depth, Access::depthTest);
     else
         pass.clear(gbuffer.depth, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0});
-    pass.record([&scene, layout = key.gbuffer, after = key.depthPrepass](frame::PassContext& context) {
+    pass.record([&scene, constants, depthIsThere](frame::PassContext& context) {
         // Of surfaces that coincide the last one drawn is seen, with the set-up pass and without.
-        context.depth(after ? vk::CompareOp::eEqual : vk::CompareOp::eGreaterOrEqual, !after);
-        scene.draw(context, layout, false);
+        context.depth(depthIsThere ? vk::CompareOp::eEqual : vk::CompareOp::eGreaterOrEqual, !depthIsThere);
+        scene.drawSurfaces(context, {"render/geometry/surface.frag", constants});
     });
 }
+
+vk::SampleCountFlagBits samplesOf(Msaa msaa) { return msaa == Msaa::x4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1; }
 
 bool needsStencil(const LightingTechnique& technique, const GpuScene& scene) {
     using Stencil = LightingTechnique::Stencil;
@@ -75,21 +75,55 @@ bool needsStencil(const LightingTechnique& technique, const GpuScene& scene) {
 BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, const GpuScene& scene, const FrameKey& key) {
     const vk::Extent2D extent{key.extent.x, key.extent.y};
     frame::FrameGraph graph;
-    const LightingTechnique& technique = techniqueNamed(key.lighting);
-    const GBuffer gbuffer = createGBuffer(graph, key.gbuffer, extent, needsStencil(technique, scene));
-    const auto radianceFormat = key.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
-                                                                              : vk::Format::eR16G16B16A16Sfloat;
+    const LightingTechnique& technique = techniqueNamed(key.settings.lighting);
+    const GBuffer gbuffer = createGBuffer(graph, key.settings.gbuffer, extent, needsStencil(technique, scene));
+    const auto radianceFormat = key.settings.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
+                                                                                       : vk::Format::eR16G16B16A16Sfloat;
     const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
-    if (key.depthPrepass) addDepthPrepass(graph, scene, key, gbuffer);
-    addGeometry(graph, scene, key, gbuffer);
-    const LightingInputs lighting{
-        gbuffer, scene, {uint32_t(key.gbuffer), scene.equations(), scene.lightFeatures()}, addLightsInView(graph, scene)};
-    addInitialLight(graph, lighting, radiance);
-    technique.add(graph, lighting, radiance);
+    const std::vector<uint32_t> constants{uint32_t(key.settings.gbuffer), scene.equations(), scene.lightFeatures()};
+    const auto samples = samplesOf(key.settings.msaa);
+    const bool multisampled = samples != vk::SampleCountFlagBits::e1;
+    const bool depthFirst = key.settings.depthPrepass || (technique.forward && !multisampled);
+    if (depthFirst) addDepth(graph, scene, "geometry.depth", gbuffer.depth);
+    addGeometry(graph, scene, gbuffer, constants, depthFirst);
+    LightingInputs lighting{gbuffer, scene, constants, addLightsInView(graph, scene), gbuffer.depth, key.settings};
+    if (multisampled) {
+        lighting.depth = graph.createImage("depth.samples", {graph.descOf(gbuffer.depth).format, extent, samples});
+        addDepth(graph, scene, "geometry.depth-samples", lighting.depth);
+        const frame::ImageId lit = graph.createImage("radiance.samples", {radianceFormat, extent, samples});
+        technique.add(graph, lighting, lit);
+        addResolve(graph, lit, radiance);
+    } else if (technique.forward) {
+        technique.add(graph, lighting, radiance);
+    } else {
+        addInitialLight(graph, lighting, radiance);
+        technique.add(graph, lighting, radiance);
+        addBlendedLoop(graph, lighting, radiance);
+    }
     const frame::ImageId display = addToneMap(graph, radiance, extent);
     FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
     if (key.counts) outputs.counts = addCounts(graph, lighting, technique);
     return {.key = key, .outputs = outputs, .executor = frame::Executor(context, pipelines, std::move(graph))};
+}
+
+/// The settings that the frame's structure depends on.
+RenderSettings structureOf(RenderSettings settings) {
+    const RenderSettings defaults;
+    settings.cullLights = defaults.cullLights;
+    settings.exposureEv = defaults.exposureEv;
+    settings.toneMap = defaults.toneMap;
+    settings.measure = defaults.measure;
+    return settings;
+}
+
+void checkSettings(const gpu::Context& context, const RenderSettings& settings) {
+    const LightingTechnique& technique = techniqueNamed(settings.lighting);
+    if (settings.msaa == Msaa::x1) return;
+    if (!technique.forward)
+        throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; forward "
+                                                  "techniques take 4", settings.lighting));
+    if (!(context.sampleCounts() & samplesOf(settings.msaa)))
+        throw Error(ErrorKind::usage, fmt::format("msaa: expected 1, as {} shades no samples", context.info().name));
 }
 
 void checkAgainstDevice(const gpu::Context& context, uvec2 extent) {
@@ -120,10 +154,10 @@ struct Renderer::Impl {
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
         checkRequest(view, aovs);
         render::checkAgainstDevice(context, view.extent);
+        render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
         const bool others = !std::ranges::all_of(aovs, render::isCount);
-        const render::FrameKey key{view.extent,          settings.lighting,     settings.gbuffer,
-                                   settings.lightBuffer, settings.depthPrepass, others, counts};
+        const render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
         if (!frame || frame->key != key) {
             frame.reset();
             context.resetPeak();

@@ -114,8 +114,6 @@ LightConstants lightConstants(const Light& light, uint32_t index, uint32_t funct
 }
 
 SortedLights sortLights(const Scene& scene) {
-    // A shape of this radius encloses whatever has a depth.
-    constexpr float kBoundless = 1e6f;
     SortedLights sorted;
     std::vector<LightConstants> shaped, meshes;
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {

@@ -1,9 +1,12 @@
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <luciole/renderer.hpp>
+
+#include "render/lighting/techniques.hpp"
 
 namespace luciole::test {
 
@@ -36,6 +39,28 @@ public:
 private:
     SilentValidation validation_;  // outlives the renderer that reports to it
     Renderer renderer_;
+};
+
+/// What each technique is held to, in one view of the scene that was set.
+class Yardsticks {
+public:
+    Yardsticks(ValidatedRenderer& renderer, const View& view, const RenderSettings& settings, std::vector<std::string> aovs = {})
+        : renderer_(renderer), view_(view), settings_(settings), aovs_(std::move(aovs)) {}
+    const Frame& of(const render::LightingTechnique& technique) {
+        const std::string name = render::yardstickOf(technique);
+        if (!frames_.contains(name)) {
+            settings_.lighting = name;
+            frames_[name] = renderer_->render(view_, settings_, aovs_);
+        }
+        return frames_.at(name);
+    }
+
+private:
+    ValidatedRenderer& renderer_;
+    View view_;
+    RenderSettings settings_;
+    std::vector<std::string> aovs_;
+    std::map<std::string, Frame> frames_;
 };
 
 }  // namespace luciole::test

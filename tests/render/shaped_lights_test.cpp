@@ -122,7 +122,7 @@ std::vector<bool> nearVolumes(const Scene& scene, const View& view, const Image&
 }
 
 bool drawsShapes(const render::LightingTechnique& technique) {
-    return technique.info.name != "brute-force" && technique.info.name != "fullscreen";
+    return technique.info.name != "brute-force" && technique.info.name != "fullscreen" && !technique.forward;
 }
 
 }  // namespace
@@ -205,8 +205,9 @@ TEST_CASE("shaped lights: each technique equals brute force at 1, 16, 255 and 4,
         for (const size_t count : {1, 16, 255, 4096}) {
             test.scene.lights.assign(many.begin(), many.begin() + ptrdiff_t(count));
             renderer->setScene(test.scene);
-            const Frame yardstick = renderer->render(view, {.lighting = "brute-force"}, kCounts);
+            Yardsticks yardsticks(renderer, view, {}, kCounts);
             for (const auto& technique : render::techniques()) {
+                const Frame& yardstick = yardsticks.of(technique);
                 INFO("scene " << test.name << ", " << count << " lights, technique " << technique.info.name);
                 const Frame frame = renderer->render(view, {.lighting = std::string(technique.info.name)}, kCounts);
                 // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).

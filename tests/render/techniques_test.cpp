@@ -18,9 +18,10 @@ TEST_CASE("lighting: each technique equals brute force to one rounding per light
         for (const auto layout : {GBufferLayout::calver, GBufferLayout::floatPosition, GBufferLayout::compact}) {
             // Two layouts put the surface elsewhere than the depth buffer that a stencilled mesh is cut out by.
             if (test.hardLights && layout != GBufferLayout::compact) continue;
-            const Frame yardstick = renderer->render(test.view, {.lighting = "brute-force", .gbuffer = layout});
+            Yardsticks yardsticks(renderer, test.view, {.gbuffer = layout});
             for (const auto& technique : render::techniques()) {
                 INFO("technique: " << technique.info.name);
+                const Frame& yardstick = yardsticks.of(technique);
                 const Frame frame = renderer->render(test.view, {.lighting = std::string(technique.info.name), .gbuffer = layout});
                 // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
                 const double bound = 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24);
@@ -43,5 +44,5 @@ TEST_CASE("lighting: a 16-bit light buffer loses at most a unit in the last plac
 }
 
 TEST_CASE("lighting: an unknown name is refused with the names there are") {
-    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of brute-force, fullscreen, quad, volume, volume-stencil, volume-stencil-reference, volume-instanced, got \"tilde\""), Error);
+    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of brute-force, fullscreen, quad, volume, volume-stencil, volume-stencil-reference, volume-instanced, forward-loop, got \"tilde\""), Error);
 }

@@ -19,6 +19,15 @@ layout(constant_id = 3) const uint kSurfaceShader = 0u;  // enum SurfaceShader
 layout(constant_id = 4) const uint kMasked = 0u;
 layout(constant_id = 5) const uint kTextures = 0u;       // bit i: slot i has a texture
 
+// Interpolants are read HERE: at the pixel's centre, or, where there are several samples a pixel, at `shadingSample`, one that the
+// triangle covers, so that nothing is extrapolated.
+#ifdef MULTISAMPLED
+int shadingSample;
+#define HERE(interpolant) interpolateAtSample(interpolant, shadingSample)
+#else
+#define HERE(interpolant) interpolant
+#endif
+
 bool hasTexture(uint slot) { return (kTextures & (1u << slot)) != 0u; }
 
 // Texture of `slot` at this pixel. Derivatives are taken of the interpolants alone: in pixels outside the triangle, which
@@ -27,7 +36,8 @@ vec4 sampleTexture(sampler2D image, SurfaceConstants surface, uint slotIndex) {
     const TextureSlot slot = surface.slots[slotIndex];
     const vec4 dx = dFdx(uv);
     const vec4 dy = dFdy(uv);
-    const vec2 p = slot.uvSet == 0u ? uv.xy : uv.zw;
+    const vec4 uvHere = HERE(uv);
+    const vec2 p = slot.uvSet == 0u ? uvHere.xy : uvHere.zw;
     const vec2 px = slot.uvSet == 0u ? dx.xy : dx.zw;
     const vec2 py = slot.uvSet == 0u ? dy.xy : dy.zw;
     // precise: the depth set-up pass has to find the same alpha.
@@ -38,7 +48,7 @@ vec4 sampleTexture(sampler2D image, SurfaceConstants surface, uint slotIndex) {
 
 // Base colour with alpha: factor * texture * vertex colour.
 vec4 baseColor(SurfaceConstants surface) {
-    precise vec4 base = surface.baseColor * color;
+    precise vec4 base = surface.baseColor * HERE(color);
     if (hasTexture(kTextureBaseColor)) base *= sampleTexture(textureBaseColor, surface, kTextureBaseColor);
     return base;
 }

@@ -8,7 +8,7 @@ void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std
                       uint32_t count) {
     pass.bind({.vertex = "render/shaders/full_screen.vert",
                .fragment = "render/lighting/brute_force.frag",
-               .additive = true,
+               .blend = gpu::Blend::add,
                .constants = constants});
     pass.depth(vk::CompareOp::eLess, false);
     for (const shared::LightSlice& slice : scene.slices(first, count)) {

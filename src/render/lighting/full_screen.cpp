@@ -14,7 +14,7 @@ void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::Im
         .record([constants = in.constants, lightCount = in.scene.lightCount()](frame::PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert",
                           .fragment = "render/lighting/full_screen.frag",
-                          .additive = true,
+                          .blend = gpu::Blend::add,
                           .constants = constants});
             context.depth(vk::CompareOp::eLess, false);
             for (uint32_t light = 0; light < lightCount; ++light) {

@@ -15,6 +15,9 @@ SHARED_FN LightConstants inView(LightConstants source, mat4 viewFromWorld, vec3 
 
 const float kHalfTurn = 3.14159265358979f;
 
+// A shape of this radius encloses whatever has a depth, metres.
+const float kBoundless = 1e6f;
+
 // A ball's sector: the points within `radius` of `apex` in directions within `angle` of `axis`. A ball has the angle pi; what
 // is drawn of a sector of more than pi / 2 is its convex hull, the ball cut off at radius * cos(angle) along the axis.
 struct LightShape {

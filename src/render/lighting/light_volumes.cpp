@@ -17,7 +17,7 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32
     const uint32_t first = lights.unbounded + lights.shaped;
     pass.commands.setStencilTestEnable(true);
     pass.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
-    PassContext::Draw draw{.vertex = "render/lighting/volume_mesh.vert", .additive = true, .depthClamp = clampsDepth(scene), .constants = constants};
+    PassContext::Draw draw{.vertex = "render/lighting/volume_mesh.vert", .blend = gpu::Blend::add, .depthClamp = clampsDepth(scene), .constants = constants};
     const PassContext::Prepared count = pass.prepare(draw);
     draw.fragment = "render/lighting/shaped.frag";
     const PassContext::Prepared lit = pass.prepare(draw);

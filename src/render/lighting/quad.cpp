@@ -15,7 +15,7 @@ void addQuad(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId 
         if (lights.shaped + lights.meshes == 0) return;
         context.bind({.vertex = "render/lighting/quad.vert",
                       .fragment = "render/lighting/shaped.frag",
-                      .additive = true,
+                      .blend = gpu::Blend::add,
                       .constants = constants});
         context.depth(vk::CompareOp::eGreaterOrEqual, false);
         context.draw(6, lights.shaped + lights.meshes, 0, lights.unbounded);

@@ -18,22 +18,31 @@ const std::vector<LightingTechnique>& techniques() {
         {{"volume", "a convex mesh per light: front faces where they lie before the surface, back faces where the near plane cuts",
           "Calver 2003, \"Convex Light Volumes\""},
          addVolume,
+         false,
          LightingTechnique::Stencil::forMeshes},
         {{"volume-stencil", "a convex mesh per light, drawn twice: only the pixels inside are lit",
           "O'Donnell 2009, after the note on volume deferred shading"},
          addVolumeStencil,
+         false,
          LightingTechnique::Stencil::always},
         {{"volume-stencil-reference", "the same with a mark of its own for each light, so that marks may stay",
           "O'Donnell 2009, after the note on volume deferred shading"},
          addVolumeStencilReference,
+         false,
          LightingTechnique::Stencil::always},
         {{"volume-instanced", "convex meshes, all that are drawn alike in one instanced draw; lists of them made on the device",
           "the note on volume deferred shading"},
          addVolumeInstanced,
+         false,
          LightingTechnique::Stencil::forMeshes},
+        {{"forward-loop", "surfaces lit while they are drawn, all lights in one loop: the yardstick of forward techniques", "baseline"},
+         addForwardLoop,
+         true},
     };
     return table;
 }
+
+std::string yardstickOf(const LightingTechnique& technique) { return technique.forward ? "forward-loop" : "brute-force"; }
 
 const LightingTechnique& techniqueNamed(const std::string& name) {
     std::vector<std::string_view> names;

@@ -15,27 +15,37 @@ struct LightingInputs {
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
     frame::BufferId lights;           ///< the table of lights in view space, as the frame's set names it
+    frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
+    RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
+    frame::BufferId counts = {};      ///< with kCountsLights: what forward passes count in (forward.glsl)
+
+    bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }
 
     /// Declares that a pass reads G-buffer and lights, and tests against depth (see readGBuffer).
-    void readBy(frame::PassBuilder& pass, frame::Access depth = frame::Access::depthTest) const {
-        readGBuffer(pass, gbuffer, depth);
+    void readBy(frame::PassBuilder& pass, frame::Access depthAccess = frame::Access::depthTest) const {
+        readGBuffer(pass, gbuffer, depthAccess);
         pass.read(lights, frame::Access::tableRead);
     }
 };
 
 /// Adds its passes, which add the light of all of the scene's lights to `sum`: radiance, or, with kCountsLights among the
-/// constants, counts (contribution.glsl).
+/// constants, counts (contribution.glsl). Forward techniques draw the surfaces themselves: they set `sum` to all the light there is,
+/// and count in `in.counts`.
 using AddLighting = void (*)(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 
 struct LightingTechnique {
     LightingTechniqueInfo info;
     AddLighting add;
+    bool forward = false;  ///< lights surfaces while it draws them: no G-buffer, and any number of samples
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
 };
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
 const std::vector<LightingTechnique>& techniques();
+
+/// The technique without any bound, to which others are held: the one that evaluates all lights at the same surfaces.
+std::string yardstickOf(const LightingTechnique& technique);
 
 /// \throws Error(usage) listing the names
 const LightingTechnique& techniqueNamed(const std::string& name);
@@ -46,6 +56,7 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
+void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addQuad(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);

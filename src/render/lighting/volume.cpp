@@ -23,7 +23,7 @@ void forEachVolume(const GpuScene& scene, const Draw& draw) {
 PassContext::Prepared prepare(PassContext& pass, const GpuScene& scene, const char* fragment, const std::vector<uint32_t>& constants) {
     return pass.prepare({.vertex = "render/lighting/volume.vert",
                          .fragment = fragment,
-                         .additive = true,
+                         .blend = gpu::Blend::add,
                          .depthClamp = clampsDepth(scene),
                          .constants = constants});
 }

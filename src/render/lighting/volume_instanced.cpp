@@ -49,7 +49,7 @@ void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, fram
                               [scene = &in.scene, arguments = made.arguments](PassContext& context, const std::vector<uint32_t>& constants) {
                                   context.bind({.vertex = "render/lighting/volume_listed.vert",
                                                 .fragment = "render/lighting/shaped.frag",
-                                                .additive = true,
+                                                .blend = gpu::Blend::add,
                                                 .depthClamp = clampsDepth(*scene),
                                                 .constants = constants});
                                   for (uint32_t c = 0; c < shared::kVolumeClasses; ++c) {

@@ -4,6 +4,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "frame/pass_context.hpp"
+#include "render/lighting/forward.hpp"
+#include "render/lighting/forward.shared.h"
 
 namespace luciole::render {
 
@@ -49,7 +51,7 @@ std::array<frame::ImageId, 4> addAovs(frame::FrameGraph& graph, const LightingIn
         for (const shared::LightSlice& slice : slices) {
             context.bind({.vertex = "render/shaders/full_screen.vert",
                           .fragment = "render/post/aov.frag",
-                          .additive = slice.first > 0,
+                          .blend = slice.first > 0 ? gpu::Blend::add : gpu::Blend::replace,
                           .constants = constants});
             context.push(slice);
             context.drawFullScreen();
@@ -87,6 +89,19 @@ frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk:
     return display;
 }
 
+void addResolve(frame::FrameGraph& graph, frame::ImageId samples, frame::ImageId resolved) {
+    const vk::Extent2D extent = graph.descOf(resolved).extent;
+    graph.addPass("post.resolve")
+        .read(samples, Access::transferRead)
+        .write(resolved, Access::transferWrite)
+        .record([=](frame::PassContext& pass) {
+            const vk::ImageSubresourceLayers color{vk::ImageAspectFlagBits::eColor, 0, 0, 1};
+            pass.commands.resolveImage(pass.image(samples), vk::ImageLayout::eTransferSrcOptimal, pass.image(resolved),
+                                       vk::ImageLayout::eTransferDstOptimal,
+                                       vk::ImageResolve{.srcSubresource = color, .dstSubresource = color, .extent = {extent.width, extent.height, 1}});
+        });
+}
+
 FrameOutputs addOutputs(frame::FrameGraph& graph, const LightingInputs& lighting, frame::ImageId radiance,
                         frame::ImageId display, vk::Extent2D extent, bool aovs) {
     FrameOutputs outputs{addReadback(graph, "radiance", radiance), addReadback(graph, "display", display)};
@@ -103,12 +118,25 @@ bool isCount(const std::string& aov) {
 }
 
 frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighting, const LightingTechnique& technique) {
-    const frame::ImageId counts = graph.createImage("counts", {kFloat, graph.resources()[lighting.gbuffer.depth.index].image.extent});
+    const vk::Extent2D extent = graph.descOf(lighting.gbuffer.depth).extent;
+    const frame::ImageId counts = graph.createImage("counts", {kFloat, extent});
     LightingInputs counting = lighting;
     counting.constants[shared::kConstantLights] |= shared::kCountsLights;
     counting.phase = "counting.";
     graph.addPass("counting.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    counting.counts = graph.createBuffer("counts.forward", uint64_t(extent.width) * extent.height * shared::kForwardCounters * 4);
+    graph.addPass("counting.zero").write(counting.counts, Access::transferWrite).record([buffer = counting.counts](frame::PassContext& pass) {
+        pass.commands.fillBuffer(pass.buffer(buffer), 0, VK_WHOLE_SIZE, 0);
+    });
     technique.add(graph, counting, counts);
+    if (!technique.forward) addBlendedLoop(graph, counting, counts);
+    graph.addPass("counting.sum")
+        .read(counting.counts, Access::fragmentStorageRead, shared::kForwardCounts)
+        .update(counts, Access::colorBlend)
+        .record([](frame::PassContext& pass) {
+            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/lighting/forward_counts.frag", .blend = gpu::Blend::add});
+            pass.drawFullScreen();
+        });
     return addReadback(graph, "counts", counts);
 }
 

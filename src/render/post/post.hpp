@@ -12,6 +12,9 @@ namespace luciole::render {
 /// Phase 3: exposure, tone mapping and sRGB encoding into a picture of floats.
 frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent);
 
+/// The mean of each pixel's samples.
+void addResolve(frame::FrameGraph& graph, frame::ImageId samples, frame::ImageId resolved);
+
 /// What the host reads after the frame.
 struct FrameOutputs {
     frame::BufferId radiance, display;

@@ -1,0 +1,84 @@
+// Forward shading: a surface is lit where it is drawn, so that nothing of it is stored. A technique's shader calls beginSurface, addLight
+// for each light that it finds, and endSurface. Variants: MULTISAMPLED, several samples a pixel; COUNTING, which adds up what is
+// evaluated in a buffer instead of light.
+#ifndef LUCIOLE_FORWARD_GLSL
+#define LUCIOLE_FORWARD_GLSL
+#include "output/fingerprint.shared.h"
+#include "render/geometry/gbuffer.glsl"
+#include "render/geometry/surface_shading.glsl"
+#include "render/lighting/forward.shared.h"
+#include "render/shaders/illuminate.glsl"
+
+layout(constant_id = 6) const uint kFirst = 1u;    // ambience and emission are added, too
+layout(constant_id = 7) const uint kBlended = 0u;  // alpha says how much of the surface is there
+
+#ifdef COUNTING
+layout(early_fragment_tests) in;  // what is hidden does not count
+layout(set = 1, binding = kPassStorage + kForwardCounts, scalar) buffer Counts { uint counts[]; };  // [pixel][kForwardCounters]
+uvec3 counted = uvec3(0);
+#else
+layout(location = 0) out vec4 radiance;
+#endif
+#ifdef MULTISAMPLED
+layout(set = 1, binding = kForwardDepth) uniform sampler2DMS depthSamples;
+#endif
+
+ShadingPoint point;
+float alpha;
+vec3 sum = vec3(0);
+
+#ifdef MULTISAMPLED
+// Of the samples that the triangle covers the first one at which it is seen. Its depth there is computed from its position, so it is as
+// good as equal to the stored one.
+int visibleSample() {
+    int best = 0;
+    float bestBehind = 2.0;
+    for (uint covered = uint(gl_SampleMaskIn[0]); covered != 0u; covered &= covered - 1u) {
+        const int i = findLSB(covered);
+        const vec4 clip = view.clipFromView * vec4(interpolateAtSample(positionView, i), 1);
+        const float stored = texelFetch(depthSamples, ivec2(gl_FragCoord.xy), i).x;
+        const float behind = max(stored * (1.0 - 4e-6) - clip.z / clip.w, 0.0);
+        if (behind < bestBehind) {
+            best = i;
+            bestBehind = behind;
+        }
+    }
+    return best;
+}
+#endif
+
+void beginSurface() {
+#ifdef MULTISAMPLED
+    shadingSample = visibleSample();
+#endif
+    Surface s = surfaceHere(alpha);
+    const MaterialConstants m = materials[s.material];
+    s.Cs0 *= m.cs0Scale;
+    s.Cs1 *= m.cs1Scale;
+#ifndef MULTISAMPLED
+    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));  // as whoever only knows its depth
+#endif
+    point = shadingPoint(s);
+    if (kFirst != 0u) sum = initialLight(s, m);
+}
+
+void addLight(LightConstants light) {
+#ifdef COUNTING
+    const bool useful = reaches(light, point.s.P, point.s.objectId);
+    counted += uvec3(1u, useful, useful ? fingerprint(light.sceneIndex) : 0u);
+#else
+    sum += illuminate(point, light);
+#endif
+}
+
+void endSurface() {
+#ifdef COUNTING
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uint first = (pixel.y * uint(view.extent.x) + pixel.x) * kForwardCounters;
+    for (uint i = 0u; i < kForwardCounters; ++i) atomicAdd(counts[first + i], counted[i]);
+#else
+    const float here = kBlended != 0u ? alpha : 1.0;
+    radiance = vec4(sum * here, kFirst != 0u ? here : 0.0);
+#endif
+}
+#endif

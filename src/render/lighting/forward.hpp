@@ -1,0 +1,25 @@
+#pragma once
+#include "render/lighting/techniques.hpp"
+
+/// What the techniques that light surfaces while they draw them have in common.
+namespace luciole::render {
+
+enum class Surfaces { opaque, blended };
+
+/// Adds a pass that draws `which` surfaces where they are seen.
+/// \param first nothing was drawn before: `sum` is set, and ambience and emission are part of it
+/// \return the pass, for what its shaders read
+frame::PassBuilder addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
+                                  Surfaces which, bool first);
+
+/// How such a pass draws. \param fragment the technique's shader; its variant for samples and counting is chosen here
+/// \param own the shader's specialization constants from kForwardConstants on
+SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Surfaces which, bool first, std::vector<uint32_t> own = {});
+
+/// Sets the depth test of such a pass.
+void testDepth(frame::PassContext& pass, Surfaces which);
+
+/// Draws the blended surfaces over what is there, each with all lights in a loop.
+void addBlendedLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+
+}  // namespace luciole::render
