@@ -107,7 +107,12 @@ enum class SurfaceShader : uint8_t {
     marble,    ///< veined turbulence over object-space position
 };
 
-enum class AlphaMode : uint8_t { opaque, mask };
+/// glTF 2.0, section 3.9.4 "Alpha Coverage". alpha = factor * texture * vertex colour.
+enum class AlphaMode : uint8_t {
+    opaque,
+    mask,   ///< there where alpha >= alphaCutoff
+    blend,  ///< glTF's BLEND: what is behind shows through by 1 - clamp(alpha, 0, 1); drawn after the others, sorted
+};
 
 /// Per-material constants of the shaped equation (Calver 2003, "Light Model"). Fa is read at N.L, Fb at N.H.
 struct ShapedParameters {
@@ -126,7 +131,7 @@ struct Material {
     LightEquation equation = LightEquation::metallicRoughness;
     SurfaceShader surface = SurfaceShader::textured;
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alphaCutoff = 0.5f;
+    float alphaCutoff = 0.5f;  ///< `mask` only
     bool doubleSided = false;
 
     vec4 baseColor{1};  ///< also Cs0 of the shaped equation

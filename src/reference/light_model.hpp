@@ -13,6 +13,7 @@ struct SurfacePoint {
     dvec3 P{0};  ///< metres, world space
     dvec3 N{0};
     dvec3 Cs0{0}, Cs1{0};
+    double alpha = 1;  ///< [0, 1]: how much it hides of what is behind, if its material blends
     dvec3 Kamb{0};
     double Kemm = 0;
     double specularBlend = 0;                           ///< shaped

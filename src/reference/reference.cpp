@@ -23,14 +23,16 @@ namespace luciole {
 namespace reference {
 namespace {
 
-/// All that is known of a pixel; as made, where nothing is.
+/// All that is known of a pixel; as made, where nothing is. Radiance, evaluations and fingerprint are of all that it
+/// shows, the rest is of the surface that doesn't blend.
 struct Pixel {
     dvec3 radiance{0};
     double depth = 0;
     dvec3 normal{0};
     dvec3 Cs0{0}, Cs1{0};
     double material = -1, id = -1;
-    double evaluations = 0, lightCount = 0, fingerprint = 0;
+    double lightCount = 0;
+    double evaluations = 0, usefulEvaluations = 0, fingerprint = 0;
 };
 
 struct Aov {
@@ -48,7 +50,7 @@ constexpr std::array kAovs{
     Aov{"id", 1, [](const Pixel& p) { return dvec3(p.id); }},
     Aov{"light-count", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
     Aov{"evaluations", 1, [](const Pixel& p) { return dvec3(p.evaluations); }},
-    Aov{"useful-evaluations", 1, [](const Pixel& p) { return dvec3(p.lightCount); }},
+    Aov{"useful-evaluations", 1, [](const Pixel& p) { return dvec3(p.usefulEvaluations); }},
     Aov{"light-fingerprint", 1, [](const Pixel& p) { return dvec3(p.fingerprint); }},
 };
 
@@ -71,22 +73,42 @@ public:
           tables_(scene),
           surfaces_(scene, tables_),
           volumes_(volumesOf(scene)),
-          lights_(lightSources(scene, tables_, volumes_)) {}
+          lights_(lightSources(scene, tables_, volumes_)),
+          anyBlends_(std::ranges::count(scene.materials, AlphaMode::blend, &Material::alphaMode) > 0) {}
 
     Pixel at(uint32_t x, uint32_t y) const {
         const Ray ray = rays_.through(x, y);
         const auto footprint = [&](const Hit& hit) {
             return footprintOf(rays_, x, y, hit, visibility_.triangleWorld(hit.object, hit.triangle));
         };
-        const auto isThere = [&](const Hit& hit) { return isOpaque(hit) || surfaces_.isThere(hit, footprint(hit)); };
-        const auto hit = visibility_.closest(ray.origin, ray.direction, rays_.nearest(), isThere);
-        if (!hit || hit->t > rays_.farthest()) return {};
-        return shaded(*hit, surfaces_.pointAt(*hit, footprint(*hit)));
+        const auto blends = [&](const Hit& hit) { return alphaModeOf(hit) == AlphaMode::blend; };
+        const auto hides = [&](const Hit& hit) {
+            const AlphaMode mode = alphaModeOf(hit);
+            return mode == AlphaMode::opaque || (mode == AlphaMode::mask && surfaces_.isThere(hit, footprint(hit)));
+        };
+        const auto hit = visibility_.closest(ray.origin, ray.direction, rays_.nearest(), hides);
+        const bool found = hit && hit->t <= rays_.farthest();
+        Pixel pixel = found ? shaded(*hit, surfaces_.pointAt(*hit, footprint(*hit))) : Pixel{};
+        if (!anyBlends_) return pixel;
+        const double last = found ? hit->t : rays_.farthest();
+        for (const Hit& layer : visibility_.allBetween(ray.origin, ray.direction, rays_.nearest(), last, blends)) {
+            blend(pixel, layer, surfaces_.pointAt(layer, footprint(layer)));
+        }
+        return pixel;
     }
 
 private:
-    bool isOpaque(const Hit& hit) const {
-        return scene_.materials[scene_.objects[hit.object].material].alphaMode == AlphaMode::opaque;
+    AlphaMode alphaModeOf(const Hit& hit) const {
+        return scene_.materials[scene_.objects[hit.object].material].alphaMode;
+    }
+
+    /// Lays a surface that blends over what the pixel shows.
+    void blend(Pixel& pixel, const Hit& hit, const SurfacePoint& surface) const {
+        const Pixel layer = shaded(hit, surface);
+        pixel.radiance = mix(pixel.radiance, layer.radiance, surface.alpha);
+        pixel.evaluations += layer.evaluations;
+        pixel.usefulEvaluations += layer.usefulEvaluations;
+        pixel.fingerprint += layer.fingerprint;
     }
 
     Pixel shaded(const Hit& hit, const SurfacePoint& surface) const {
@@ -106,6 +128,7 @@ private:
             const auto arrival = light.arrivalAt(surface.P);
             if (!arrival) continue;
             ++pixel.lightCount;
+            ++pixel.usefulEvaluations;
             pixel.fingerprint += shared::fingerprint(i);
             const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
             pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
@@ -120,6 +143,7 @@ private:
     Surfaces surfaces_;
     std::vector<Volume> volumes_;
     std::vector<LightSource> lights_;
+    bool anyBlends_;
 };
 
 }  // namespace

@@ -174,17 +174,19 @@ dvec3 Surfaces::normalAt(const Place& place) {
 
 bool Surfaces::isThere(const Hit& hit, const Footprint& footprint) const {
     const Place place = placeOf(hit, footprint);
-    return place.material.alphaMode == AlphaMode::opaque || baseColorAt(place).a >= place.material.alphaCutoff;
+    return place.material.alphaMode != AlphaMode::mask || baseColorAt(place).a >= place.material.alphaCutoff;
 }
 
 SurfacePoint Surfaces::pointAt(const Hit& hit, const Footprint& footprint) const {
     const Place place = placeOf(hit, footprint);
     const Material& material = place.material;
     const dvec3 position = place.interpolated([](const Vertex& vertex) { return dvec3(vertex.position); });
+    const dvec4 baseColor = baseColorAt(place);
     SurfacePoint point{.equation = material.equation,
                        .P = dvec3(place.object.worldFromObject * dvec4(position, 1)),
                        .N = normalAt(place),
-                       .Cs0 = patternedColorAt(place, dvec3(baseColorAt(place)))};
+                       .Cs0 = patternedColorAt(place, dvec3(baseColor)),
+                       .alpha = std::clamp(baseColor.a, 0.0, 1.0)};
     if (material.equation == LightEquation::shaped) {
         const ShapedParameters& shaped = material.shaped;
         point.Cs0 *= double(shaped.kd);

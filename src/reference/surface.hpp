@@ -27,7 +27,7 @@ public:
     /// \param scene, tables must outlive this object
     Surfaces(const Scene& scene, const FunctionTables& tables);
 
-    /// Whether the alpha mask, if there is one, leaves the surface standing.
+    /// Whether the alpha mask, if there is one, leaves the surface standing; one that blends is always there.
     bool isThere(const Hit& hit, const Footprint& footprint) const;
 
     SurfacePoint pointAt(const Hit& hit, const Footprint& footprint) const;

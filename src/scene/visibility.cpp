@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
+#include <tuple>
 
 namespace luciole {
 namespace {
@@ -77,6 +78,7 @@ struct Visibility::Impl {
     void addInstance(uint32_t object);
     std::array<dvec3, 3> corners(uint32_t object, uint32_t triangle) const;
     std::optional<Hit> hitOf(uint32_t object, uint32_t triangle, dvec3 origin, dvec3 direction) const;
+    bool adjoin(const Hit& a, const Hit& b, dvec3 direction) const;
     bool isEmpty() const { return low.x > high.x; }
     double startOf(dvec3 origin, dvec3 direction, double tMin) const;
 };
@@ -180,6 +182,17 @@ std::optional<Hit> Visibility::Impl::hitOf(uint32_t object, uint32_t triangle, d
     return hit;
 }
 
+/// Whether two hits of one ray are one: a ray through an edge or a vertex, or past it within the rounding of single
+/// precision, hits all triangles that meet there. Fails for layers of one object that are nearer to each other than
+/// that: in the outermost thousandth of their triangles they are taken for one.
+bool Visibility::Impl::adjoin(const Hit& a, const Hit& b, dvec3 direction) const {
+    if (a.object != b.object || a.frontFace != b.frontFace) return false;
+    if (a.triangle == b.triangle) return true;  // Embree may report a triangle more than once
+    const auto atBorder = [](const Hit& hit) { return std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < 1e-3; };
+    const double rounding = 1e-6 * length(max(abs(low), abs(high)));
+    return atBorder(a) && atBorder(b) && std::abs(a.t - b.t) * length(direction) <= rounding;
+}
+
 /// Where Embree's ray starts: just before the scene, however far away the origin is, so that its single-precision
 /// origin is as exact as the scene's own coordinates. The filter sees to the exact tMin.
 double Visibility::Impl::startOf(dvec3 origin, dvec3 direction, double tMin) const {
@@ -229,6 +242,21 @@ std::optional<Hit> Visibility::closest(dvec3 origin, dvec3 direction, double tMi
     rtcIntersect1(impl_->world.get(), &query, &ray);
 #endif
     return query.best;
+}
+
+std::vector<Hit> Visibility::allBetween(dvec3 origin, dvec3 direction, double tMin, double tMax,
+                                        const Accept& accept) const {
+    std::vector<Hit> hits;
+    const auto gather = [&](const Hit& hit) {
+        const auto known = [&](const Hit& other) { return impl_->adjoin(hit, other, direction); };
+        if (hit.t <= tMax && (!accept || accept(hit)) && std::ranges::none_of(hits, known)) hits.push_back(hit);
+        return false;  // so that the ray goes on
+    };
+    closest(origin, direction, tMin, gather);
+    std::ranges::sort(hits, [](const Hit& a, const Hit& b) {
+        return std::tie(b.t, a.object, a.triangle) < std::tie(a.t, b.object, b.triangle);
+    });
+    return hits;
 }
 
 std::array<dvec3, 3> Visibility::triangleWorld(uint32_t object, uint32_t triangle) const {

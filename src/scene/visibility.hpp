@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <luciole/scene.hpp>
 
@@ -47,6 +48,11 @@ public:
     /// \param direction world space, any length > 0; sets the unit of t
     /// \param accept called for candidates in no particular order; empty: everything is accepted
     std::optional<Hit> closest(dvec3 origin, dvec3 direction, double tMin = 0, const Accept& accept = {}) const;
+
+    /// All hits with tMin <= t <= tMax that `closest` could find, the farthest first; of those that coincide, the last
+    /// one drawn is last. The triangles of one surface that meet in an edge or a vertex on the ray are hit once.
+    std::vector<Hit> allBetween(dvec3 origin, dvec3 direction, double tMin, double tMax,
+                                const Accept& accept = {}) const;
 
     /// World-space corners of a triangle, metres.
     std::array<dvec3, 3> triangleWorld(uint32_t object, uint32_t triangle) const;

@@ -178,6 +178,8 @@ TEST_CASE("glb: meshes beyond 65535 vertices get 32-bit indices") {
 TEST_CASE("glb: metallic-roughness and unlit materials come back exactly") {
     Scene scene = smallScene();
     scene.materials[0].equation = LightEquation::unlit;
+    scene.materials[0].alphaMode = AlphaMode::blend;
+    scene.materials[0].baseColor.a = 0.3f;
     const Glb glb = roundTrip(scene, "materials");
     CHECK(glb.losses.empty());
     REQUIRE(glb.readBack.materials.size() == 2);

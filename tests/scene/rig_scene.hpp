@@ -42,7 +42,8 @@ inline const std::string kFullRig = R"({
   "linkGroups": [{"name": "cloth", "include": "curtain*", "exclude": ["floor"], "castInclude": ["*"], "castExclude": "curtain left"}],
   "materials": [
     {"match": "red*", "equation": "shaped", "diffuseFunction": "half", "specularFunction": {"kind": "toon", "parameter": 2},
-     "kd": 0.5, "ks": 0.25, "specularColor": [1, 0.5, 0], "specularBlend": 0.75, "kAmbient": [0.1, 0.2, 0.3], "kEmissive": 2},
+     "kd": 0.5, "ks": 0.25, "specularColor": [1, 0.5, 0], "specularBlend": 0.75, "kAmbient": [0.1, 0.2, 0.3], "kEmissive": 2,
+     "alphaMode": "blend"},
     {"name": "tiles", "copyOf": "stone", "assignTo": "floor", "surface": "checker", "proceduralColor": "#000000",
      "proceduralScale": 3, "baseColor": [1, 0.5, 0.25, 0.5], "metallic": 0.5, "roughness": 0.25, "emissive": [2, 0, 0],
      "normalScale": 2, "occlusionStrength": 0.5, "doubleSided": true, "alphaMode": "mask", "alphaCutoff": 0.25}],

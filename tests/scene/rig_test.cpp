@@ -146,6 +146,7 @@ TEST_CASE("rig: every key of a changed and a new material arrives") {
     CHECK(cloth.shaped.specularBlend == 0.75f);
     CHECK(cloth.shaped.kAmbient == vec3(0.1f, 0.2f, 0.3f));
     CHECK(cloth.shaped.kEmissive == 2);
+    CHECK(cloth.alphaMode == AlphaMode::blend);
 
     const Material& tiles = scene.materials[2];
     CHECK(tiles.name == "tiles");

@@ -65,6 +65,51 @@ TEST_CASE("visibility: a ray goes on behind the hits that the caller refuses") {
     CHECK_FALSE(visibility.closest({0.1, 0.2, 1}, {0, 0, -1}, 0, [](const Hit&) { return false; }));
 }
 
+TEST_CASE("visibility: all hits between two distances come the farthest first, coinciding ones in drawing order") {
+    Scene scene = sceneOf(quad(), {});
+    for (float z : {-2.0f, -1.0f, -2.0f, -3.0f}) {
+        scene.objects.push_back(scene.objects[0]);
+        scene.objects.back().worldFromObject = glm::translate(mat4(1), vec3(0, 0, z));
+    }
+    const Visibility visibility(scene);
+    const auto objects = [&](double tMin, double tMax, const Visibility::Accept& accept = {}) {
+        std::vector<uint32_t> result;
+        for (const Hit& hit : visibility.allBetween({0.1, 0.2, 1}, {0, 0, -1}, tMin, tMax, accept))
+            result.push_back(hit.object);
+        return result;
+    };
+    CHECK(objects(0, 9) == std::vector<uint32_t>{4, 1, 3, 2, 0});
+    CHECK(objects(2, 3) == std::vector<uint32_t>{1, 3, 2});
+    CHECK(objects(0, 9, [](const Hit& hit) { return hit.object % 2 == 1; }) == std::vector<uint32_t>{1, 3});
+    CHECK(objects(4.5, 9).empty());
+}
+
+TEST_CASE("visibility: a ray through an edge or a vertex hits the surface there once, and a fold twice") {
+    const auto hits = [](const Visibility& visibility, dvec3 origin, dvec3 direction) {
+        return visibility.allBetween(origin, direction, 0, 9).size();
+    };
+    for (const float angle : {0.0f, 0.3f, 1.1f}) {  // turned, the diagonal is only nearly on the ray
+        const Scene scene = sceneOf(quad(), {}, glm::rotate(mat4(1), angle, vec3(0, 1, 0)));
+        CHECK(hits(Visibility(scene), {0, 0, 3}, {0, 0, -1}) == 1);
+    }
+    const Scene round = sceneOf(sphere(), {.doubleSided = true});
+    const Visibility visibility(round);
+    for (const Vertex& vertex : round.meshes[0].vertices) {  // in at one vertex, out at another
+        // At x = 0 lie seam and poles, where the vertices differ by rounding errors and a ray may slip through.
+        const dvec3 position(vertex.position);
+        if (std::abs(position.x) > 1e-6) CHECK(hits(visibility, 3.0 * position, -position) == 2);
+        CHECK(hits(visibility, 3.0 * position, -position) <= 2);
+    }
+    // A tent of two quads that share the edge x = 0: beside it a ray meets the front of one and the back of the other.
+    Mesh tent = quad();
+    for (const uint32_t i : {0u, 3u}) tent.vertices[i].position.x = 0;
+    for (const uint32_t i : {0u, 1u, 2u, 3u}) tent.vertices.push_back(tent.vertices[i]);
+    for (const uint32_t i : {5u, 6u}) tent.vertices[i].position.z = -1;
+    tent.indices.insert(tent.indices.end(), {4, 6, 5, 4, 7, 6});
+    const Scene folded = sceneOf(tent, {.doubleSided = true});
+    CHECK(hits(Visibility(folded), {1e-6, 0.3, 3}, {0, 0, -1}) == 2);
+}
+
 TEST_CASE("visibility: an origin a thousand kilometres away costs no precision") {
     Scene scene = sceneOf(quad(), {});
     scene.objects.push_back(scene.objects[0]);

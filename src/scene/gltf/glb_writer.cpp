@@ -366,6 +366,7 @@ Json Writer::material(const Material& source) {
         }
     }
     if (m.alphaMode == AlphaMode::mask) json.update({{"alphaMode", "MASK"}, {"alphaCutoff", m.alphaCutoff}});
+    if (m.alphaMode == AlphaMode::blend) json["alphaMode"] = "BLEND";
     if (m.doubleSided) json["doubleSided"] = true;
     if (m.equation == LightEquation::unlit) {
         json["extensions"]["KHR_materials_unlit"] = Json::object();

@@ -56,7 +56,7 @@ public:
           buffers_(root, container.binaryChunk, files),
           accessors_(root, buffers_, limits),
           textures_(root, buffers_, files, limits, warnings_, scene_),
-          materials_(root, textures_, warnings_, scene_),
+          materials_(root, textures_, scene_),
           meshes_(root, accessors_, limits, warnings_, scene_.meshes) {}
 
     Scene read() {

@@ -50,15 +50,8 @@ void Materials::readTextures(const JsonNode& json, Material& material) {
 
 void Materials::readAlpha(const JsonNode& json, Material& material) {
     const auto mode = json.find("alphaMode");
-    const size_t choice = mode ? mode->choice({"OPAQUE", "MASK", "BLEND"}) : 0;
-    if (choice == 0) return;
-    material.alphaMode = AlphaMode::mask;
-    if (choice == 1) {
-        material.alphaCutoff = float(numberOr(json, "alphaCutoff", 0.5, 0));
-        return;
-    }
-    warnings_.add(
-        fmt::format("{} \"{}\": alphaMode BLEND is drawn as MASK with a cutoff of 0.5", json.path(), material.name));
+    if (mode) material.alphaMode = AlphaMode(mode->choice({"OPAQUE", "MASK", "BLEND"}));
+    if (material.alphaMode == AlphaMode::mask) material.alphaCutoff = float(numberOr(json, "alphaCutoff", 0.5, 0));
 }
 
 }  // namespace luciole::gltf

@@ -41,8 +41,8 @@ private:
 /// Reads materials: metallic-roughness, KHR_materials_emissive_strength, KHR_materials_unlit.
 class Materials {
 public:
-    Materials(const JsonNode& root, Textures& textures, Warnings& warnings, Scene& scene)
-        : root_(root), textures_(textures), warnings_(warnings), scene_(scene) {}
+    Materials(const JsonNode& root, Textures& textures, Scene& scene)
+        : root_(root), textures_(textures), scene_(scene) {}
 
     /// \param reference index of the material in the file; absent: glTF's default material
     /// \return its index in the scene
@@ -55,7 +55,6 @@ private:
 
     JsonNode root_;
     Textures& textures_;
-    Warnings& warnings_;
     Scene& scene_;
     std::map<uint32_t, uint32_t> materials_;  ///< index in the file, kNone for the default -> index in the scene
 };

@@ -73,7 +73,7 @@ void setMaterial(const JsonNode& entry, Material& material, Scene& scene) {
     if (const auto v = entry.find("normalScale")) material.normalScale = float(v->number());
     if (const auto v = entry.find("occlusionStrength")) material.occlusionStrength = float(v->number(0, 1));
     if (const auto v = entry.find("doubleSided")) material.doubleSided = v->boolean();
-    if (const auto v = entry.find("alphaMode")) material.alphaMode = AlphaMode(v->choice({"opaque", "mask"}));
+    if (const auto v = entry.find("alphaMode")) material.alphaMode = AlphaMode(v->choice({"opaque", "mask", "blend"}));
     if (const auto v = entry.find("alphaCutoff")) material.alphaCutoff = float(v->number(0));
 }
 
