@@ -115,6 +115,8 @@ void run(const RenderOptions& options) {
     options.console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
     writeOutputs(options.output, frame);
     options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
+    if (frame.stats.lightIndex)
+        if (const std::string note = overflowNote(*frame.stats.lightIndex, scene); !note.empty()) options.console.note(note);
     std::optional<OverlapCounts> counts;
     if (options.output.shown == Shown::overlap)
         counts = countOverlap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace luciole::cli {
@@ -49,8 +50,33 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
                           {"draws", sum(counting, &PassStats::draws)},
                           {"stencilDraws", sum(counting, &PassStats::stencilDraws)}};
     }
+    if (const auto& index = stats.lightIndex) {
+        json["lightIndex"] = {{"packing", index->packing},         {"fellBack", index->fellBack},       {"rounds", index->rounds},
+                              {"pixelsOver", index->pixelsOver},   {"pairsOver", index->pairsOver},     {"imageBytes", index->imageBytes},
+                              {"tableBytes", index->tableBytes},   {"listEntries", index->listEntries}, {"mostAtOnce", index->mostAtOnce},
+                              {"withoutIndex", index->withoutIndex}, {"lost", Json::array()}};
+        for (const LightIndexStats::Lost& lost : index->lost)
+            json["lightIndex"]["lost"].push_back({{"light", lost.light}, {"pairs", lost.pairs}, {"radiance", lost.radiance}});
+    }
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string overflowNote(const LightIndexStats& stats, const Scene& scene) {
+    if (stats.pixelsOver == 0 && !stats.fellBack) return "";
+    if (stats.fellBack)
+        return fmt::format("light indices: lists hold all lights, where the packing asked for would have lost {} pairs of a light and a pixel at {} pixels",
+                           stats.pairsOver, stats.pixelsOver);
+    std::string note = fmt::format("light indices: {} has no room for {} pairs of a light and a pixel at {} pixels; {} lights lose something:",
+                                   stats.packing, stats.pairsOver, stats.pixelsOver, stats.lost.size());
+    std::vector<LightIndexStats::Lost> worst = stats.lost;
+    std::ranges::stable_sort(worst, std::greater<>{}, &LightIndexStats::Lost::radiance);
+    constexpr size_t kNamed = 8;
+    for (size_t i = 0; i < std::min(worst.size(), kNamed); ++i) {
+        const std::string& name = scene.lights[worst[i].light].name;
+        note += fmt::format("{} {}{} at {} pixels", i == 0 ? "" : ",", worst[i].light, name.empty() ? "" : " \"" + name + "\"", worst[i].pairs);
+    }
+    return note + (worst.size() > kNamed ? ", ..." : "");
 }
 
 std::string statisticsTable(const FrameStats& stats, const std::optional<OverlapCounts>& counts) {
@@ -61,6 +87,9 @@ std::string statisticsTable(const FrameStats& stats, const std::optional<Overlap
     table += fmt::format("{:<40} {:>10.3f} {:>10.1f} {:>8}\n", "frame, wall clock; peak memory", stats.wallMs,
                          mebibytes(stats.peakBytes), sum(stats.passes, &PassStats::draws));
     if (counts) table += countsLine(*counts);
+    if (stats.lightIndex)
+        table += fmt::format("light indices: {}, {} rounds, {:.2f} MiB of images, {:.1f} KiB of tables\n", stats.lightIndex->packing,
+                             stats.lightIndex->rounds, mebibytes(stats.lightIndex->imageBytes), double(stats.lightIndex->tableBytes) / 1024);
     return table + fmt::format("{} lights, {} triangles on {} ({})\n", stats.lights, stats.triangles, stats.deviceName,
                                stats.driver);
 }

@@ -11,6 +11,9 @@ namespace luciole::cli {
 std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
                            const std::optional<OverlapCounts>& counts);
 
+/// For people: what became of lights that found no room at a pixel; empty if all did.
+std::string overflowNote(const LightIndexStats& stats, const Scene& scene);
+
 /// For people: a table of the passes, then the totals.
 std::string statisticsTable(const FrameStats& stats, const std::optional<OverlapCounts>& counts);
 

@@ -46,6 +46,27 @@ struct PassStats {
     uint32_t stencilDraws = 0; ///< those of them that only mark the stencil
 };
 
+/// What light-indexed rendering did, and what became of lights that found no room. Pairs are those of a light and a pixel that it
+/// hits, whatever it is linked to; with msaa and lidr-cover surface a pixel's samples count one by one.
+struct LightIndexStats {
+    std::string packing;       ///< what held the indices: "bit-shift 4x255", or "list"
+    bool fellBack = false;     ///< lists stood in for the packing, which could not hold all lights
+    uint64_t pixelsOver = 0;   ///< pixels hit by more lights than the packing has room for
+    uint64_t pairsOver = 0;    ///< the pairs beyond: lost, or, if `fellBack`, saved from being lost
+    struct Lost {
+        uint32_t light;        ///< index into Scene::lights
+        uint64_t pairs;
+        double radiance;       ///< summed over the pairs: what a white surface that faces the light would have sent
+    };
+    std::vector<Lost> lost;    ///< on-overflow priority: the lights of which something is lost, in the scene's order
+    uint32_t rounds = 1;       ///< fillings of the index images, each followed by a pass over the surfaces
+    uint64_t imageBytes = 0;   ///< of the index images
+    uint64_t tableBytes = 0;   ///< of the light data that surfaces read by index
+    uint64_t listEntries = 0;
+    uint32_t mostAtOnce = 0;   ///< lights at one pixel, if lists were made
+    uint32_t withoutIndex = 0; ///< lights that every fragment looks at (lidr-types)
+};
+
 struct FrameStats {
     std::vector<PassStats> passes;
     double wallMs = 0;          ///< recording, submission and execution, without upload and read-back
@@ -53,6 +74,7 @@ struct FrameStats {
     uint64_t peakBytes = 0;     ///< device memory allocated for scene and frame together
     uint64_t triangles = 0;
     uint32_t lights = 0;
+    std::optional<LightIndexStats> lightIndex;
     std::string deviceName, driver;
 };
 

@@ -208,6 +208,7 @@ struct Camera {
     float halfHeight = 1;       ///< metres, > 0; orthographic. The width follows from the picture's aspect
     float zNear = 0.1f;         ///< metres, >= kLeastNear (orthographic: >= 0). Perspective has no far plane
     float zFar = 1000;          ///< metres, > zNear; orthographic only
+    bool operator==(const Camera&) const = default;
 };
 
 inline constexpr uint32_t kMaxObjectId = 65535;    ///< object IDs are stored in 16 bits

@@ -55,6 +55,9 @@ std::span<const Setting> settingsTable();
 /// \throws Error(usage) naming the setting, what was expected, and `value`
 void setSetting(RenderSettings& settings, std::string_view name, std::string_view value);
 
+/// The value of a setting, as setSetting takes it. \throws Error(usage) for an unknown name
+std::string getSetting(const RenderSettings& settings, std::string_view name);
+
 /// Applies a settings file's JSON object; unknown keys are errors.
 /// \throws Error(usage) naming the file and the key
 void applySettingsText(RenderSettings& settings, std::string_view json, const std::string& nameForErrors);

@@ -28,6 +28,7 @@ public:
         std::string fragment = {};
         bool meshVertices = false;
         gpu::Blend blend = gpu::Blend::replace;
+        bool lastAdds = false;   ///< the last colour attachment adds, whatever the others do
         uint8_t channels = 0xf;  ///< of the attachments, those that are written
         bool depthClamp = false;
         std::vector<uint32_t> constants = {};
@@ -38,7 +39,7 @@ public:
         bool marksStencil;
     };
     Prepared prepare(const Draw& draw) {
-        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend,
+        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend, .lastAdds = draw.lastAdds,
                                 .channels = draw.channels, .depthClamp = draw.depthClamp, .constants = draw.constants,
                                 .colors = colors_, .depth = depth_, .samples = target_.samples}),
                 !colors_.empty() && draw.fragment.empty()};

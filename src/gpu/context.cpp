@@ -87,6 +87,7 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     const auto& v12 = chain.get<vk::PhysicalDeviceVulkan12Features>();
     const auto& v13 = chain.get<vk::PhysicalDeviceVulkan13Features>();
     if (!device.getFeatures().depthClamp) return "lacks the feature depthClamp";
+    if (!device.getFeatures().independentBlend) return "lacks the feature independentBlend";
     if (!v12.scalarBlockLayout) return "lacks the feature scalarBlockLayout";
     if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
     if (!v12.separateDepthStencilLayouts) return "lacks the feature separateDepthStencilLayouts";
@@ -175,6 +176,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .separateDepthStencilLayouts = true};
     const vk::PhysicalDeviceFeatures has = physical.getFeatures();
     const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32,
+                                              .independentBlend = true,
                                               .sampleRateShading = has.sampleRateShading,
                                               .depthClamp = true,
                                               .fragmentStoresAndAtomics = has.fragmentStoresAndAtomics};

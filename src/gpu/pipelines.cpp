@@ -162,7 +162,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
         .depthClampEnable = key.depthClamp, .polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};
     const vk::PipelineMultisampleStateCreateInfo multisample{.rasterizationSamples = key.samples};
     const vk::PipelineDepthStencilStateCreateInfo depth{};
-    const std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blendState(key));
+    std::vector<vk::PipelineColorBlendAttachmentState> blends(key.colors.size(), blendState(key));
+    if (key.lastAdds) blends.back() = blendState({.fragment = key.fragment, .blend = Blend::add});
     const vk::PipelineColorBlendStateCreateInfo blending{.attachmentCount = uint32_t(blends.size()), .pAttachments = blends.data()};
     const vk::DynamicState dynamics[] = {vk::DynamicState::eViewport,        vk::DynamicState::eScissor,
                                          vk::DynamicState::eCullMode,        vk::DynamicState::eFrontFace,

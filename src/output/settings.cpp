@@ -153,6 +153,12 @@ void setSetting(RenderSettings& settings, std::string_view name, std::string_vie
     setting->set(settings, value);
 }
 
+std::string getSetting(const RenderSettings& settings, std::string_view name) {
+    const Setting* setting = findSetting(name);
+    if (!setting) throw Error(ErrorKind::usage, fmt::format("unknown setting \"{}\"", name));
+    return setting->get(settings);
+}
+
 void applySettingsText(RenderSettings& settings, std::string_view json, const std::string& nameForErrors) {
     RenderSettings changed = settings;
     try {

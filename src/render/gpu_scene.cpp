@@ -280,14 +280,14 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
         nullptr);
 }
 
-void GpuScene::setView(const View& view, const RenderSettings& settings) {
+void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
     viewConstants_ = render::viewConstants(view, ambience_);
     viewConstants_.lightCount = lightCount();
     viewConstants_.linkWords = linkWords_;
     viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);
     viewConstants_.toneMap = uint32_t(settings.toneMap);
     viewConstants_.cullLights = settings.cullLights;
-    viewConstants_.slack = viewSlack(view, settings.gbuffer);
+    viewConstants_.slack = viewSlack(view, layout, settings.msaa != Msaa::x1);
     view_.write(std::span<const ViewConstants>(&viewConstants_, 1));
     const vec3 backwards(view.camera.worldFromView[2]);
     std::ranges::stable_sort(blended_, {}, [&](const BlendedObject& object) { return dot(object.centerWorld, backwards); });

@@ -42,7 +42,7 @@ public:
     GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene);
 
     /// Writes what depends on the view, whatever the number of lights.
-    void setView(const View& view, const RenderSettings& settings);
+    void setView(const View& view, const RenderSettings& settings, GBufferLayout layout);
     const shared::ViewConstants& view() const { return viewConstants_; }
 
     vk::DescriptorSet frameSet() const { return frameSet_; }
@@ -53,6 +53,7 @@ public:
     uint32_t lightCount() const { return uint32_t(lights_.sources.size()); }
     /// The order of the light tables, in world space.
     const SortedLights& lights() const { return lights_; }
+    const VolumeTables& volumes() const { return volumes_; }
     const shared::VolumeConstants& volumeOf(const shared::LightConstants& light) const { return volumes_.volumes[light.volume]; }
     vk::Buffer volumeIndices() const { return *volumeIndices_.handle; }  ///< of the meshes of all levels of detail
     /// The lights in view space, for the frame to fill.

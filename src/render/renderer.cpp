@@ -13,6 +13,7 @@
 #include "render/geometry/gbuffer.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/lighting/forward.hpp"
+#include "render/lighting/light_index.hpp"
 #include "render/lighting/techniques.hpp"
 #include "render/post/post.hpp"
 
@@ -29,14 +30,18 @@ struct FrameKey {
     RenderSettings settings;  ///< without those that are data
     bool aovs;
     bool counts;  ///< the technique runs a second time and counts
+    LightIndexAttempt attempt = {};
+    std::optional<Camera> camera = {};  ///< where lights are sorted by where they are seen
     bool operator==(const FrameKey&) const = default;
 };
 
 struct BuiltFrame {
     FrameKey key;
     FrameOutputs outputs;
+    LightIndexFrame lightIndex;
     frame::Executor executor;
     bool warm = false;
+    bool excessive = false;  ///< lists were not needed any more
 };
 
 void addDepth(frame::FrameGraph& graph, const GpuScene& scene, const std::string& name, frame::ImageId depth) {
@@ -86,7 +91,15 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const bool depthFirst = key.settings.depthPrepass || (technique.forward && !multisampled);
     if (depthFirst) addDepth(graph, scene, "geometry.depth", gbuffer.depth);
     addGeometry(graph, scene, gbuffer, constants, depthFirst);
-    LightingInputs lighting{gbuffer, scene, constants, addLightsInView(graph, scene), gbuffer.depth, key.settings};
+    LightIndexFrame lightIndex;
+    LightingInputs lighting{.gbuffer = gbuffer,
+                            .scene = scene,
+                            .constants = constants,
+                            .lights = addLightsInView(graph, scene),
+                            .depth = gbuffer.depth,
+                            .settings = key.settings,
+                            .attempt = key.attempt,
+                            .lightIndex = &lightIndex};
     if (multisampled) {
         lighting.depth = graph.createImage("depth.samples", {graph.descOf(gbuffer.depth).format, extent, samples});
         addDepth(graph, scene, "geometry.depth-samples", lighting.depth);
@@ -103,11 +116,19 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const frame::ImageId display = addToneMap(graph, radiance, extent);
     FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
     if (key.counts) outputs.counts = addCounts(graph, lighting, technique);
-    return {.key = key, .outputs = outputs, .executor = frame::Executor(context, pipelines, std::move(graph))};
+    return {.key = key, .outputs = outputs, .lightIndex = std::move(lightIndex), .executor = frame::Executor(context, pipelines, std::move(graph))};
 }
 
-/// The settings that the frame's structure depends on.
+/// Whether lights are sorted by where they are seen, and not once for all.
+bool sortsByView(const RenderSettings& settings, const GpuScene& scene) {
+    const bool sorts = settings.lidrPacking == LidrPacking::cpuSort || settings.lidrPacking == LidrPacking::maxBlendSorted;
+    const bool onTheWay = settings.lidrCover == LidrCover::frontFaces || (settings.lidrCover == LidrCover::automatic && scene.hasBlended());
+    return settings.lighting == "light-indexed" && sorts && onTheWay;
+}
+
+/// The settings that the frame's structure depends on. Forward techniques compute positions from depth, as the compact layout does.
 RenderSettings structureOf(RenderSettings settings) {
+    if (techniqueNamed(settings.lighting).forward) settings.gbuffer = GBufferLayout::compact;
     const RenderSettings defaults;
     settings.cullLights = defaults.cullLights;
     settings.exposureEv = defaults.exposureEv;
@@ -157,19 +178,34 @@ struct Renderer::Impl {
         render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
         const bool others = !std::ranges::all_of(aovs, render::isCount);
-        const render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
-        if (!frame || frame->key != key) {
-            frame.reset();
-            context.resetPeak();
-            frame = std::make_unique<render::BuiltFrame>(render::buildFrame(context, pipelines, *gpuScene, key));
+        gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
+        render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
+        if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
+        // The attempt that did last time, if nothing else has changed and it was not more than needed.
+        if (frame) key.attempt = frame->key.attempt;
+        if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
+        std::optional<LightIndexStats> lightIndex;
+        std::chrono::duration<double, std::milli> wall{};
+        for (std::optional<render::LightIndexAttempt> attempt = key.attempt; attempt;) {
+            key.attempt = *attempt;
+            attempt.reset();
+            if (!frame || frame->key != key) {
+                frame.reset();
+                context.resetPeak();
+                frame = std::make_unique<render::BuiltFrame>(render::buildFrame(context, pipelines, *gpuScene, key));
+            }
+            // Drivers compile shaders at their first use; that is no part of a frame's time.
+            if (settings.measure && !frame->warm) frame->executor.run(gpuScene->frameSet(), false);
+            frame->warm = true;
+            const auto start = std::chrono::steady_clock::now();
+            frame->executor.run(gpuScene->frameSet(), settings.measure);
+            wall = std::chrono::steady_clock::now() - start;
+            if (frame->lightIndex.counters)
+                attempt = render::judge(frame->lightIndex, frame->executor.read<uint32_t>(*frame->lightIndex.counters), settings, *gpuScene,
+                                        context.limits().maxStorageBufferRange, lightIndex.emplace());
         }
-        gpuScene->setView(view, settings);
-        // Drivers compile shaders at their first use; that is no part of a frame's time.
-        if (settings.measure && !frame->warm) frame->executor.run(gpuScene->frameSet(), false);
-        frame->warm = true;
-        const auto start = std::chrono::steady_clock::now();
-        frame->executor.run(gpuScene->frameSet(), settings.measure);
-        const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+
+        frame->excessive = lightIndex && lightIndex->fellBack && lightIndex->pixelsOver == 0;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
         result.stats = {.passes = frame->executor.stats(),
@@ -178,6 +214,7 @@ struct Renderer::Impl {
                         .peakBytes = context.peakBytes(),
                         .triangles = gpuScene->triangles(),
                         .lights = gpuScene->lightCount(),
+                        .lightIndex = std::move(lightIndex),
                         .deviceName = context.info().name,
                         .driver = context.info().driver};
         result.graph = frame->executor.dot();

@@ -61,12 +61,12 @@ ViewConstants viewConstants(const View& view, const Ambience& ambience) {
     return constants;
 }
 
-vec4 viewSlack(const View& view, GBufferLayout layout) {
+vec4 viewSlack(const View& view, GBufferLayout layout, bool multisampled) {
     const Camera& camera = view.camera;
     const dmat4 clip = clipFromView(camera, double(view.extent.x) / view.extent.y);
     // Sideways a sixteenth of a pixel, as rasterizers snap vertices to a 256th; and calver stores x and y in 16 bits.
     const double stored = layout == GBufferLayout::calver ? std::max(view.extent.x, view.extent.y) / 65535.0 : 0;
-    const double pixel = std::max(2 / (clip[0][0] * view.extent.x), 2 / (-clip[1][1] * view.extent.y)) * (1.0 / 16 + stored);
+    const double pixel = std::max(2 / (clip[0][0] * view.extent.x), 2 / (-clip[1][1] * view.extent.y)) * ((multisampled ? 1.0 : 1.0 / 16) + stored);
     constexpr double kRounding = 4e-6;    // of the matrices and positions, 32 units of roundoff
     constexpr double kDepthStep = 5e-7;   // of the rasterizer's depth, 8 units of roundoff of the largest depth it meets
     constexpr double kHalfStep = 1e-3;    // float: a half has 11 significant bits and may be truncated; all three coordinates

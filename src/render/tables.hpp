@@ -12,7 +12,8 @@ shared::ViewConstants viewConstants(const View& view, const Ambience& ambience);
 
 /// The coefficients of slackOf (light_volume.shared.h): how far the G-buffer of this layout, the rasterizer's snapping to
 /// sub-pixels and the rounding of depth may move a surface point against a light's shape.
-vec4 viewSlack(const View& view, GBufferLayout layout);
+/// \param multisampled surface points lie anywhere in their pixel
+vec4 viewSlack(const View& view, GBufferLayout layout, bool multisampled = false);
 
 /// The light in world space. \param index in Scene::lights; \param functionCount of the scene (see functionTable)
 shared::LightConstants lightConstants(const Light& light, uint32_t index, uint32_t functionCount);

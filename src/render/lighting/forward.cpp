@@ -7,18 +7,29 @@ namespace luciole::render {
 using frame::Access;
 using frame::PassContext;
 
-frame::PassBuilder addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
-                                  Surfaces which, bool first) {
+ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name, Surfaces which,
+                           bool first) {
+    const bool replaces = which == Surfaces::opaque && !in.counting();
+    const frame::ImageId target = replaces && !first ? graph.createImage("radiance.more", graph.descOf(sum)) : sum;
     auto pass = graph.addPass(in.phase + name);
     pass.read(in.lights, Access::tableRead).read(in.depth, Access::depthTest);
     if (graph.descOf(in.depth).samples != vk::SampleCountFlagBits::e1) pass.read(in.depth, Access::fragmentSampled, shared::kForwardDepth);
     if (in.counting())
         pass.update(in.counts, Access::fragmentStorageWrite, shared::kForwardCounts);
-    else if (first && which == Surfaces::opaque)
-        pass.clear(sum, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    else if (replaces)
+        pass.clear(target, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     else
-        pass.update(sum, Access::colorBlend);
-    return pass;
+        pass.update(target, Access::colorBlend);
+    return {pass, target};
+}
+
+void addToSum(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId target, frame::ImageId sum) {
+    if (target.index == sum.index) return;
+    const std::string fragment = std::string("render/lighting/forward_add.frag") + (in.settings.msaa != Msaa::x1 ? "+MULTISAMPLED" : "");
+    graph.addPass(in.phase + "add").read(target, Access::fragmentSampled, 0).update(sum, Access::colorBlend).record([fragment](PassContext& pass) {
+        pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .blend = gpu::Blend::add});
+        pass.drawFullScreen();
+    });
 }
 
 SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Surfaces which, bool first, std::vector<uint32_t> own) {
@@ -29,7 +40,7 @@ SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Su
     return {.fragment = std::move(fragment),
             .frame = in.constants,
             .own = std::move(own),
-            .blend = !first ? gpu::Blend::add : blended ? gpu::Blend::over : gpu::Blend::replace,
+            .blend = !blended ? gpu::Blend::replace : first ? gpu::Blend::over : gpu::Blend::add,
             .oneEquation = true};
 }
 
@@ -58,10 +69,12 @@ std::vector<SurfaceShading> loops(const LightingInputs& in, Surfaces which) {
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     bool first = true;
     for (const SurfaceShading& shading : loops(in, Surfaces::opaque)) {
-        addForwardPass(graph, in, sum, "forward-loop", Surfaces::opaque, first).record([&scene = in.scene, shading](PassContext& pass) {
+        ForwardPass loop = addForwardPass(graph, in, sum, "forward-loop", Surfaces::opaque, first);
+        loop.pass.record([&scene = in.scene, shading](PassContext& pass) {
             testDepth(pass, Surfaces::opaque);
             scene.drawSurfaces(pass, shading);
         });
+        addToSum(graph, in, loop.target, sum);
         first = false;
     }
     addBlendedLoop(graph, in, sum);
@@ -70,7 +83,7 @@ void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::I
 void addBlendedLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     if (!in.scene.hasBlended()) return;
     addForwardPass(graph, in, sum, "blended", Surfaces::blended, true)
-        .record([&scene = in.scene, shadings = loops(in, Surfaces::blended)](PassContext& pass) {
+        .pass.record([&scene = in.scene, shadings = loops(in, Surfaces::blended)](PassContext& pass) {
             testDepth(pass, Surfaces::blended);
             scene.drawBlended(pass, shadings);
         });

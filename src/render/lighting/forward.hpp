@@ -6,11 +6,19 @@ namespace luciole::render {
 
 enum class Surfaces { opaque, blended };
 
-/// Adds a pass that draws `which` surfaces where they are seen.
+/// A pass that draws surfaces where they are seen. Of opaque surfaces that coincide the last one drawn is, so opaque passes replace what
+/// is there, and a further one has a target of its own.
+struct ForwardPass {
+    frame::PassBuilder pass;  ///< for what its shaders read
+    frame::ImageId target;    ///< what `addToSum` adds
+};
+
 /// \param first nothing was drawn before: `sum` is set, and ambience and emission are part of it
-/// \return the pass, for what its shaders read
-frame::PassBuilder addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
-                                  Surfaces which, bool first);
+ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name, Surfaces which,
+                           bool first);
+
+/// After a pass that was declared and recorded: adds its target to `sum`, if it has one of its own.
+void addToSum(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId target, frame::ImageId sum);
 
 /// How such a pass draws. \param fragment the technique's shader; its variant for samples and counting is chosen here
 /// \param own the shader's specialization constants from kForwardConstants on

@@ -38,6 +38,11 @@ const std::vector<LightingTechnique>& techniques() {
         {{"forward-loop", "surfaces lit while they are drawn, all lights in one loop: the yardstick of forward techniques", "baseline"},
          addForwardLoop,
          true},
+        {{"light-indexed", "light volumes write light indices, surfaces look them up while they are drawn",
+          "Trebilco 2009, Light-Indexed Deferred Rendering"},
+         addLightIndexed,
+         true,
+         LightingTechnique::Stencil::always},
     };
     return table;
 }

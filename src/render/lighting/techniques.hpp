@@ -9,6 +9,17 @@
 
 namespace luciole::render {
 
+struct LightIndexFrame;
+
+/// What light-indexed rendering makes of a frame; the one after another where the last did not hold all lights.
+struct LightIndexAttempt {
+    bool list = false;     ///< lists instead of what the settings say
+    bool report = false;   ///< finds out which lights are lost
+    uint32_t slices = 1;   ///< of the lights, a set of lists each
+    uint64_t entries = 0;  ///< that the lists have room for; 0: as many as usual
+    bool operator==(const LightIndexAttempt&) const = default;
+};
+
 /// What every lighting technique gets. It knows the G-buffer and the light tables and no other technique.
 struct LightingInputs {
     const GBuffer& gbuffer;
@@ -18,6 +29,8 @@ struct LightingInputs {
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
+    LightIndexAttempt attempt = {};
+    LightIndexFrame* lightIndex = nullptr;  ///< what light-indexed rendering says of the frame; null while counting
     frame::BufferId counts = {};      ///< with kCountsLights: what forward passes count in (forward.glsl)
 
     bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }
@@ -56,6 +69,7 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
+void addLightIndexed(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);

@@ -123,6 +123,8 @@ frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighti
     LightingInputs counting = lighting;
     counting.constants[shared::kConstantLights] |= shared::kCountsLights;
     counting.phase = "counting.";
+    counting.attempt.report = false;
+    counting.lightIndex = nullptr;
     graph.addPass("counting.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     counting.counts = graph.createBuffer("counts.forward", uint64_t(extent.width) * extent.height * shared::kForwardCounters * 4);
     graph.addPass("counting.zero").write(counting.counts, Access::transferWrite).record([buffer = counting.counts](frame::PassContext& pass) {

@@ -1,0 +1,363 @@
+#include "render/lighting/light_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <luciole/error.hpp>
+
+#include "render/lighting/forward.hpp"
+#include "render/lighting/light_volumes.hpp"
+
+namespace luciole::render {
+
+using frame::Access;
+using frame::BufferId;
+using frame::FrameGraph;
+using frame::ImageId;
+using frame::PassContext;
+
+namespace {
+
+constexpr shared::IndexPacking kNoPacking{.kind = shared::kPackedBits, .indexBits = 8, .entryBits = 8, .perPass = 1, .passes = 1, .images = 1};
+
+/// What all passes of a frame have in common.
+struct Indexing {
+    const LightingInputs& in;
+    IndexLayout layout;
+    IndexPlan plan;
+    bool surfaces;  ///< lights that reach the surface, not all before it
+    ImageId depth;  ///< that decides
+    bool samples;   ///< an index for each sample
+    bool guarded;   ///< the stencil counts a pixel's lights, so that those beyond the overlap change nothing
+    ImageId numbers = {};  ///< else, unless sorted: of each pixel's lights, 255 and more as 255
+    bool counted() const { return !guarded && !layout.sorted; }
+    BufferId order, shapes, counters;
+
+    /// Specialization constants of the passes that draw lights.
+    std::vector<uint32_t> drawConstants() const {
+        const shared::IndexPacking& p = layout.packing;
+        std::vector<uint32_t> constants = in.constants;
+        constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(surfaces), uint32_t(plan.remapped)});
+        return constants;
+    }
+};
+
+/// Declares what light_index.vert and light_index_draw.glsl read.
+void readByLights(frame::PassBuilder& pass, const Indexing& x) {
+    pass.read(x.in.lights, Access::tableRead)
+        .read(x.depth, Access::fragmentSampled, shared::kIndexDepth)
+        .read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
+        .read(x.shapes, Access::fragmentStorageRead, shared::kIndexShapes);
+}
+
+/// Draws the volumes of a slice of the order (light_index.vert). Blending and the stencil are the caller's.
+void drawLights(PassContext& pass, const GpuScene& scene, shared::LightSlice slice, bool surfaces) {
+    if (slice.count == 0) return;
+    pass.commands.bindIndexBuffer(scene.volumeIndices(), 0, vk::IndexType::eUint32);
+    setFaces(pass, !surfaces);
+    pass.push(slice);
+    pass.drawIndexed(shared::volumeIndexCount(shared::kIndexLod), slice.count, shared::volumeFirstIndex(shared::kIndexLod), 0, 0);
+}
+
+BufferId addShapes(FrameGraph& graph, const LightingInputs& in) {
+    const uint32_t count = in.scene.lightCount();
+    const BufferId shapes = graph.createBuffer("light-index.shapes", count * 4ull);
+    graph.addPass(in.phase + "light-indexed.shapes")
+        .read(in.lights, Access::computeTableRead)
+        .write(shapes, Access::computeStorageWrite, shared::kIndexShapes)
+        .record([constants = in.constants, groups = (count + 63) / 64](PassContext& pass) {
+            if (groups > 0) pass.dispatch("render/lighting/light_index_shapes.comp", constants, groups);
+        });
+    return shapes;
+}
+
+void addZero(FrameGraph& graph, const std::string& name, BufferId buffer) {
+    graph.addPass(name).write(buffer, Access::transferWrite).record([buffer](PassContext& pass) {
+        pass.commands.fillBuffer(pass.buffer(buffer), 0, VK_WHOLE_SIZE, 0);
+    });
+}
+
+/// The farthest of each pixel's samples, for lights before any of them (Trebilco 2009, "MSAA Technique 2").
+ImageId addFarthestDepth(FrameGraph& graph, const LightingInputs& in) {
+    const ImageId farthest = graph.createImage("depth.farthest", {graph.descOf(in.depth).format, graph.descOf(in.depth).extent});
+    graph.addPass(in.phase + "light-indexed.farthest-depth")
+        .read(in.depth, Access::fragmentSampled, shared::kIndexDepth)
+        .clear(farthest, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
+        .record([](PassContext& pass) {
+            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/lighting/light_index_farthest.frag"});
+            pass.depth(vk::CompareOp::eAlways, true);
+            pass.drawFullScreen();
+        });
+    return farthest;
+}
+
+/// Lights of a pixel are counted in its stencil, and those from `first` on, `count` of them, are let through.
+void guard(PassContext& pass, uint32_t first, uint32_t count) {
+    const auto faces = vk::StencilFaceFlagBits::eFrontAndBack;
+    pass.commands.clearAttachments(vk::ClearAttachment{.aspectMask = vk::ImageAspectFlagBits::eStencil},
+                                   vk::ClearRect{.rect = {{}, pass.extent()}, .layerCount = 1});
+    pass.commands.setStencilTestEnable(true);
+    pass.commands.setStencilReference(faces, first);
+    pass.commands.setStencilCompareMask(faces, 0xff & ~(count - 1));
+    pass.stencil(faces, {.compare = vk::CompareOp::eEqual, .fail = vk::StencilOp::eIncrementAndClamp, .pass = vk::StencilOp::eIncrementAndClamp});
+}
+
+/// Step 2 (Trebilco 2009): light volumes write light indices. Fills `images` with one round of the plan.
+void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& round, const std::vector<ImageId>& images) {
+    const shared::IndexPacking& packing = x.layout.packing;
+    const gpu::Blend blend = packing.kind == shared::kPackedBits ? gpu::Blend::shift : packing.kind == shared::kPackedExtremes ? gpu::Blend::max : gpu::Blend::replace;
+    std::vector<bool> cleared(images.size());
+    // Draws into the same images are one pass.
+    for (size_t begin = 0, end = 0; begin < round.size() || begin == 0; begin = end) {
+        const IndexDraw empty{};
+        const IndexDraw& first = round.empty() ? empty : round[begin];
+        while (end < round.size() && round[end].firstImage == first.firstImage) ++end;
+        const std::vector<IndexDraw> draws(round.begin() + ptrdiff_t(begin), round.begin() + ptrdiff_t(end));
+        auto pass = graph.addPass(x.in.phase + "light-indexed.index");
+        readByLights(pass, x);
+        if (x.guarded)
+            pass.update(x.depth, Access::stencilWrite);
+        else
+            pass.read(x.depth, Access::depthTest);
+        for (uint32_t i = first.firstImage; i < first.firstImage + first.images; ++i) {
+            pass.clear(images[i], Access::colorBlend, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+            cleared[i] = true;
+        }
+        if (x.counted()) pass.clear(x.numbers, Access::colorBlend, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+        std::string fragment = "render/lighting/light_index.frag";
+        if (first.images > 1) fragment += first.images > 2 ? "+FOUR" : "+TWO";
+        if (x.counted()) fragment += "+COUNTED";
+        if (x.samples) fragment += "+MULTISAMPLED";
+        pass.record([&scene = x.in.scene, draws, fragment, blend, packing, guarded = x.guarded, counted = x.counted(), surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+            // Moves what is there down by the digits of one index.
+            const float shift = packing.entryBits == 8 ? 0.0f : 1.0f / float(1u << packing.entryBits);
+            context.commands.setBlendConstants(std::array{shift, shift, shift, shift}.data());
+            for (const IndexDraw& draw : draws) {
+                context.bind({.vertex = "render/lighting/light_index.vert",
+                              .fragment = fragment,
+                              .blend = blend,
+                              .lastAdds = counted,
+                              .channels = draw.channels,
+                              .depthClamp = clampsDepth(scene),
+                              .constants = constants});
+                if (guarded) guard(context, draw.pass * packing.perPass, packing.perPass);
+                drawLights(context, scene, draw.slice, surfaces);
+            }
+        });
+        if (round.empty()) break;
+    }
+    for (uint32_t i = 0; i < images.size(); ++i)
+        if (!cleared[i])
+            graph.addPass(x.in.phase + "light-indexed.clear").clear(images[i], Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+}
+
+/// Declares the index images as those of one set.
+void readImages(frame::PassBuilder& pass, const std::vector<ImageId>& images, uint32_t slot) {
+    for (uint32_t i = 0; i < 4; ++i) pass.read(images[std::min<size_t>(i, images.size() - 1)], Access::fragmentSampled, slot + i);
+}
+
+/// Counts the pixels that are hit by more lights than fit.
+void addSaturated(FrameGraph& graph, const Indexing& x) {
+    std::string fragment = "render/lighting/light_index_saturated.frag";
+    if (x.counted()) fragment += "+COUNTED";
+    if (x.samples) fragment += "+MULTISAMPLED";
+    auto pass = graph.addPass(x.in.phase + "light-indexed.saturated");
+    if (x.counted()) pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages).read(x.depth, Access::depthTest);
+    else pass.update(x.depth, Access::stencilWrite);
+    pass.update(x.counters, Access::fragmentStorageWrite, shared::kIndexCounters)
+        .record([fragment, overlap = x.layout.overlap, stencil = x.guarded](PassContext& context) {
+            context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment});
+            context.push(overlap);
+            context.commands.setStencilTestEnable(stencil);
+            context.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, overlap);
+            context.stencil(vk::StencilFaceFlagBits::eFrontAndBack, {.compare = vk::CompareOp::eLess});
+            context.drawFullScreen();
+        });
+}
+
+/// Finds out which lights the images lack, and where.
+void addLost(FrameGraph& graph, const Indexing& x, const std::vector<ImageId>& images, std::vector<shared::LightSlice> slices) {
+    const vk::Extent2D extent = graph.descOf(x.depth).extent;
+    const BufferId seen = graph.createBuffer("light-index.seen", uint64_t(extent.width) * extent.height * (x.samples ? 4 : 1) * 4);
+    addZero(graph, x.in.phase + "light-indexed.zero", seen);
+    auto pass = graph.addPass(x.in.phase + "light-indexed.lost");
+    readByLights(pass, x);
+    readImages(pass, images, shared::kIndexImages);
+    readImages(pass, images, shared::kIndexMoreImages);
+    const std::string fragment = std::string("render/lighting/light_index_lost.frag") + (x.samples ? "+INDEXSAMPLES+MULTISAMPLED" : "");
+    pass.read(x.depth, Access::depthTest)
+        .update(x.counters, Access::fragmentStorageWrite, shared::kIndexCounters)
+        .update(seen, Access::fragmentStorageWrite, shared::kIndexOffsets)
+        .record([&scene = x.in.scene, fragment, slices, surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+            context.bind({.vertex = "render/lighting/light_index.vert", .fragment = fragment, .depthClamp = clampsDepth(scene), .constants = constants});
+            for (const shared::LightSlice& slice : slices) drawLights(context, scene, slice, surfaces);
+        });
+}
+
+/// Step 3: surfaces look their lights up.
+void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images, Surfaces which, bool first) {
+    const shared::IndexPacking& p = x.layout.packing;
+    auto [pass, target] = addForwardPass(graph, x.in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
+    readImages(pass, images.front(), shared::kIndexImages);
+    readImages(pass, images.back(), shared::kIndexMoreImages);
+    pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
+    SurfaceShading shading = forwardShading(x.in, std::string("render/lighting/forward_indexed.frag") + (x.samples ? "+INDEXSAMPLES" : ""), which, first,
+                                            {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(images.size()), uint32_t(x.plan.remapped)});
+    if (first) shading.slice = x.plan.rest;
+    pass.record([&scene = x.in.scene, shading, which](PassContext& context) {
+        testDepth(context, which);
+        which == Surfaces::blended ? scene.drawBlended(context, {shading}) : scene.drawSurfaces(context, shading);
+    });
+    addToSum(graph, x.in, target, sum);
+}
+
+void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
+    const LightingInputs& in = x.in;
+    const frame::ImageDesc desc{x.layout.format, graph.descOf(x.depth).extent, graph.descOf(x.depth).samples};
+    std::vector<std::vector<ImageId>> images(x.plan.sets.size());
+    x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, desc.extent, desc.samples});
+    for (auto& set : images)
+        for (uint32_t i = 0; i < x.layout.imageCount(); ++i) set.push_back(graph.createImage("light-index", desc));
+    for (size_t r = 0; r < x.plan.rounds(); ++r) {
+        for (size_t s = 0; s < images.size(); ++s) {
+            const auto& rounds = x.plan.sets[s];
+            const IndexRound round = r < rounds.size() ? rounds[r] : IndexRound{};
+            addIndexPasses(graph, x, round, images[s]);
+            if (in.lightIndex && !x.layout.sorted && !in.attempt.report) addSaturated(graph, x);
+            if (in.lightIndex && in.attempt.report) {
+                std::vector<shared::LightSlice> slices;
+                if (!round.empty()) slices.push_back(round.front().slice);
+                if (x.layout.sorted) slices.clear();  // none of those that were drawn is lost
+                if (s == 0 && r == 0) slices.push_back(x.plan.dropped);
+                addLost(graph, x, images[s], slices);
+            }
+        }
+        addSurfaces(graph, x, sum, images, Surfaces::opaque, r == 0);
+    }
+    if (!in.scene.hasBlended()) return;
+    x.surfaces ? addBlendedLoop(graph, in, sum) : addSurfaces(graph, x, sum, images, Surfaces::blended, true);
+}
+
+/// Per-pixel lists of any length: count, place, fill, sort.
+void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices, uint64_t capacity) {
+    const LightingInputs& in = x.in;
+    const vk::Extent2D extent = graph.descOf(x.depth).extent;
+    const uint32_t pixels = extent.width * extent.height;
+    const uint32_t scanGroups = (pixels + shared::kScanGroup * shared::kScanPixels - 1) / (shared::kScanGroup * shared::kScanPixels);
+    const BufferId counts = graph.createBuffer("light-index.counts", pixels * 4ull), offsets = graph.createBuffer("light-index.offsets", (pixels + 1) * 4ull);
+    const BufferId sums = graph.createBuffer("light-index.sums", scanGroups * 4ull), entries = graph.createBuffer("light-index.entries", capacity * 4);
+    const auto indexed = uint32_t(x.plan.order.size()) - x.plan.rest.count;
+    const std::string name = in.phase + "light-indexed.";
+    const auto addRaster = [&](const std::string& what, shared::LightSlice slice) {
+        auto pass = graph.addPass(name + what);
+        readByLights(pass, x);
+        pass.read(x.depth, Access::depthTest).update(counts, Access::fragmentStorageWrite, shared::kIndexCounts);
+        if (what == "fill") pass.read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets).write(entries, Access::fragmentStorageWrite, shared::kIndexEntries);
+        pass.record([&scene = in.scene, slice, shader = "render/lighting/light_index_" + what + ".frag", surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+            context.bind({.vertex = "render/lighting/light_index.vert", .fragment = shader, .depthClamp = clampsDepth(scene), .constants = constants});
+            drawLights(context, scene, slice, surfaces);
+        });
+    };
+    for (uint32_t s = 0; s < slices; ++s) {
+        const auto from = uint32_t(uint64_t(indexed) * s / slices), to = uint32_t(uint64_t(indexed) * (s + 1) / slices);
+        const shared::LightSlice slice{from, to - from};
+        addZero(graph, name + "zero", counts);
+        addRaster("count", slice);
+        for (uint32_t stage = 0; stage < 3; ++stage) {
+            auto pass = graph.addPass(name + std::array{"sums", "places", "offsets"}[stage]);
+            pass.read(counts, Access::computeStorageRead, shared::kIndexCounts).update(x.counters, Access::computeStorageWrite, shared::kIndexEntries);
+            stage == 0 ? pass.write(sums, Access::computeStorageWrite, 0).write(offsets, Access::computeStorageWrite, shared::kIndexOffsets)
+                       : pass.update(sums, Access::computeStorageWrite, 0).update(offsets, Access::computeStorageWrite, shared::kIndexOffsets);
+            std::vector<uint32_t> constants = in.constants;
+            constants.insert(constants.end(), {stage, x.layout.overlap});
+            pass.record([constants, groups = stage == 1 ? 1 : scanGroups](PassContext& context) {
+                context.dispatch("render/lighting/light_index_scan.comp", constants, groups);
+            });
+        }
+        addRaster("fill", slice);
+        graph.addPass(name + "sort")
+            .read(offsets, Access::computeStorageRead, shared::kIndexOffsets)
+            .update(entries, Access::computeStorageWrite, shared::kIndexEntries)
+            .record([constants = in.constants, groups = (pixels + 63) / 64](PassContext& context) {
+                context.dispatch("render/lighting/light_index_sort.comp", constants, groups);
+            });
+        const auto addListed = [&](Surfaces which) {
+            auto [pass, target] = addForwardPass(graph, in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, s == 0);
+            pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
+                .read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets)
+                .read(entries, Access::fragmentStorageRead, shared::kIndexEntries);
+            SurfaceShading shading = forwardShading(in, "render/lighting/forward_listed.frag", which, s == 0);
+            if (s == 0) shading.slice = x.plan.rest;
+            pass.record([&scene = in.scene, shading, which](PassContext& context) {
+                testDepth(context, which);
+                which == Surfaces::blended ? scene.drawBlended(context, {shading}) : scene.drawSurfaces(context, shading);
+            });
+            addToSum(graph, in, target, sum);
+        };
+        addListed(Surfaces::opaque);
+        if (in.scene.hasBlended() && !x.surfaces && slices == 1) addListed(Surfaces::blended);
+    }
+    if (in.scene.hasBlended() && (x.surfaces || slices > 1)) addBlendedLoop(graph, in, sum);
+}
+
+}  // namespace
+
+void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
+    const RenderSettings& settings = in.settings;
+    const uint32_t lights = in.scene.lightCount();
+    const bool multisampled = settings.msaa != Msaa::x1;
+    const bool exact = settings.onOverflow == OnOverflow::exact;
+    bool list = settings.lidrPacking == LidrPacking::list || in.attempt.list;
+    std::optional<IndexLayout> layout;
+    if (settings.lidrPacking != LidrPacking::list) layout = indexLayout(settings, lights);
+    if (layout && layout->mostIndex < lights && exact) list = true;
+
+    const bool surfaces = settings.lidrCover == LidrCover::surface || (settings.lidrCover == LidrCover::automatic && !in.scene.hasBlended());
+    Indexing x{.in = in, .layout = layout.value_or(IndexLayout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false}), .surfaces = surfaces && !(list && multisampled)};
+    const auto plan = [&] {
+        IndexLayout asList = x.layout;
+        asList.sorted = false;
+        const bool onScreen = !x.surfaces && x.layout.sorted;
+        return planIndices(settings, list ? asList : x.layout, in.scene.lights(), in.scene.volumes(), onScreen ? &in.scene.view() : nullptr,
+                           settings.onOverflow != OnOverflow::exact);
+    };
+    x.plan = plan();
+    // A surface that blends takes all of its lights at once.
+    if (!list && x.plan.rounds() > 1 && in.scene.hasBlended() && !x.surfaces) {
+        list = true;
+        x.plan = plan();
+    }
+    x.depth = multisampled && !x.surfaces ? addFarthestDepth(graph, in) : in.depth;
+    x.samples = multisampled && x.surfaces;
+    // A guard costs the early depth test: it is there if what overflows is kept, and where a second pass goes on at its count.
+    x.guarded = !x.layout.sorted && (in.attempt.report || x.layout.packing.passes > 1);
+    x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
+    x.shapes = addShapes(graph, in);
+    x.counters = graph.createBuffer("light-index.counters", (shared::kCounterCount + uint64_t(lights) * (in.attempt.report ? shared::kLostWords : 0)) * 4);
+    addZero(graph, in.phase + "light-indexed.zero", x.counters);
+
+    const vk::Extent2D extent = graph.descOf(in.depth).extent;
+    const uint64_t entries = in.attempt.entries ? in.attempt.entries : uint64_t(extent.width) * extent.height * 8;
+    list ? addLists(graph, x, sum, in.attempt.slices, entries) : addImages(graph, x, sum);
+    if (!in.lightIndex) return;
+
+    LightIndexFrame& frame = *in.lightIndex;
+    frame.layout = layout;
+    frame.attempt = in.attempt;
+    frame.attempt.list = list;
+    frame.attempt.entries = entries;
+    graph.output(x.counters);
+    frame.counters = x.counters;
+    for (uint32_t i = 0; i < x.plan.dropped.count; ++i) frame.dropped.push_back(x.plan.order[x.plan.dropped.first + i]);
+    frame.stats.fellBack = list && settings.lidrPacking != LidrPacking::list;
+    frame.stats.rounds = list ? in.attempt.slices : uint32_t(x.plan.rounds());
+    frame.stats.withoutIndex = x.plan.rest.count;
+    frame.stats.tableBytes = in.scene.lightTableBytes();
+    frame.stats.packing = "list";
+    if (!list) {
+        frame.stats.packing = fmt::format("{} {}x{}", getSetting(settings, "lidr-packing"), x.layout.overlap, x.layout.mostIndex);
+        frame.stats.imageBytes = uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) * x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
+    }
+}
+
+}  // namespace luciole::render
