@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <luciole/error.hpp>
 #include <luciole/reference.hpp>
 #include <memory>
@@ -75,6 +76,13 @@ void requireTechnique(const SettingOptions& options, const std::string& name) {
                 fmt::format("{}: expected one of {}, got \"{}\"", originOf(options, "lighting"), names, name));
 }
 
+/// Where programs may keep what they can do without (XDG Base Directory Specification); empty: nowhere.
+std::string cacheFolder() {
+    const char *folder = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    if (folder && *folder == '/') return std::string(folder) + "/luciole";
+    return home && *home == '/' ? std::string(home) + "/.cache/luciole" : "";
+}
+
 Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, const Scene& scene, const View& view) {
     const std::vector<std::string> aovs = neededAovs(options.output);
     ProgressLine progress(options.console, "rendering:");
@@ -85,6 +93,7 @@ Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, 
         });
     RendererOptions rendererOptions = options.renderer;
     rendererOptions.onMessage = [](std::string_view message) { say(fmt::format("luciole: {}\n", message)); };
+    rendererOptions.cacheFolder = cacheFolder();
     Renderer renderer(rendererOptions);
     options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
     renderer.setScene(scene);

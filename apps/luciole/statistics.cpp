@@ -54,7 +54,8 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
         json["lightIndex"] = {{"packing", index->packing},         {"fellBack", index->fellBack},       {"rounds", index->rounds},
                               {"pixelsOver", index->pixelsOver},   {"pairsOver", index->pairsOver},     {"imageBytes", index->imageBytes},
                               {"tableBytes", index->tableBytes},   {"listEntries", index->listEntries}, {"mostAtOnce", index->mostAtOnce},
-                              {"withoutIndex", index->withoutIndex}, {"lost", Json::array()}};
+                              {"withoutIndex", index->withoutIndex}, {"selfTestMs", index->selfTestMs},
+                              {"wrongValues", index->wrongValues}, {"lost", Json::array()}};
         for (const LightIndexStats::Lost& lost : index->lost)
             json["lightIndex"]["lost"].push_back({{"light", lost.light}, {"pairs", lost.pairs}, {"radiance", lost.radiance}});
     }
@@ -64,6 +65,8 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
 
 std::string overflowNote(const LightIndexStats& stats, const Scene& scene) {
     if (stats.pixelsOver == 0 && !stats.fellBack) return "";
+    if (stats.wrongValues > 0)
+        return fmt::format("light indices: lists hold all lights, as the device blends {} values of the packing asked for inexactly", stats.wrongValues);
     if (stats.fellBack)
         return fmt::format("light indices: lists hold all lights, where the packing asked for would have lost {} pairs of a light and a pixel at {} pixels",
                            stats.pairsOver, stats.pixelsOver);

@@ -35,6 +35,7 @@ struct RendererOptions {
     std::string device;       ///< index or part of a name; empty: the first discrete GPU, else any GPU, else software
     bool validation = false;  ///< core and synchronization validation; messages go to `onMessage`
     std::function<void(std::string_view)> onMessage;  ///< validation messages; may be empty
+    std::string cacheFolder;  ///< where outcomes of the packings' self-tests are kept from one start to the next; empty: nowhere
 };
 
 struct PassStats {
@@ -64,6 +65,8 @@ struct LightIndexStats {
     uint64_t tableBytes = 0;   ///< of the light data that surfaces read by index
     uint64_t listEntries = 0;
     uint32_t mostAtOnce = 0;   ///< lights at one pixel, if lists were made
+    double selfTestMs = 0;     ///< what it took to try the packing on the device; 0: it was tried before
+    uint32_t wrongValues = 0;  ///< values that the device does not blend exactly; lists stand in for such a packing
     uint32_t withoutIndex = 0; ///< lights that every fragment looks at (lidr-types)
 };
 

@@ -159,9 +159,11 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     const bool computes = std::ranges::any_of(
         pass.uses, [](const Use& use) { return bool(infoOf(use.access).stages & vk::PipelineStageFlagBits2::eComputeShader); });
     PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, target);
-    if (renders || computes)
-        commands.bindDescriptorSets(renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute, pipelines_.layout(),
-                                    0, {frameSet, passSets_[index]}, nullptr);
+    if (renders || computes) {
+        const auto point = renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;
+        if (frameSet) commands.bindDescriptorSets(point, pipelines_.layout(), shared::kFrameSet, frameSet, nullptr);
+        commands.bindDescriptorSets(point, pipelines_.layout(), shared::kPassSet, passSets_[index], nullptr);
+    }
     if (renders) {
         commands.beginRendering({.renderArea = {{0, 0}, extent},
                                  .layerCount = 1,

@@ -18,7 +18,7 @@ class Executor {
 public:
     Executor(const gpu::Context& context, gpu::Pipelines& pipelines, FrameGraph graph);
 
-    /// Runs one frame and waits for it. \param frameSet bound as set 0 of every pass that draws
+    /// Runs one frame and waits for it. \param frameSet bound as set 0 of every pass that draws or computes; may be null if none reads it
     /// \param measure timestamps each pass, with a full barrier after each timestamp: without it the times of passes
     ///        that the driver overlaps or merges are wrong. Without effect on a queue that has no timestamps
     void run(vk::DescriptorSet frameSet, bool measure);

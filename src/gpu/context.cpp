@@ -214,11 +214,10 @@ Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMess
     const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
     fragmentStores_ = features.fragmentStoresAndAtomics;
     sampleCounts_ = vk::SampleCountFlagBits::e1;
-    if (features.sampleRateShading)
+    if (features.sampleRateShading && limits_.standardSampleLocations)
         sampleCounts_ |= limits_.framebufferColorSampleCounts & limits_.framebufferDepthSampleCounts &
                          limits_.framebufferStencilSampleCounts & limits_.sampledImageColorSampleCounts &
                          limits_.sampledImageDepthSampleCounts;
-    driverUuid_ = physical_.getProperties().pipelineCacheUUID;
     maxBufferBytes_ = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceVulkan13Properties>()
                           .get<vk::PhysicalDeviceVulkan13Properties>()
                           .maxBufferSize;

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,7 +28,6 @@ public:
     bool fragmentStores() const { return fragmentStores_; }  ///< fragment shaders may write to buffers
     vk::SampleCountFlags sampleCounts() const { return sampleCounts_; }  ///< of colour and depth, with shading by sample
     vk::FormatProperties formatProperties(vk::Format format) const { return physical_.getFormatProperties(format); }
-    const std::array<uint8_t, VK_UUID_SIZE>& driverUuid() const { return driverUuid_; }
     uint64_t maxBufferBytes() const { return maxBufferBytes_; }
     uint64_t timestampMask() const { return timestampMask_; }  ///< valid bits of a timestamp; 0: the queue has none
 
@@ -89,7 +87,6 @@ private:
     bool labels_ = false;
     bool fragmentStores_ = false;
     vk::SampleCountFlags sampleCounts_;
-    std::array<uint8_t, VK_UUID_SIZE> driverUuid_{};
     uint64_t maxBufferBytes_ = 0;
     uint64_t timestampMask_ = 0;
     mutable uint64_t allocatedBytes_ = 0;

@@ -78,7 +78,7 @@ gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, co
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
-    : context_(context), lights_(sortLights(scene)), volumes_(volumeTables(scene)), ambience_(scene.ambience),
+    : context_(context), lights_(sortLights(scene)), volumes_(volumeTables(scene)), objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
       exposureEv_(scene.exposureEv) {
     uploadMeshes(scene);
     uploadObjects(scene);

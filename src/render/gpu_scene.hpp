@@ -54,6 +54,7 @@ public:
     /// The order of the light tables, in world space.
     const SortedLights& lights() const { return lights_; }
     const VolumeTables& volumes() const { return volumes_; }
+    const ObjectClasses& objectClasses() const { return objectClasses_; }
     const shared::VolumeConstants& volumeOf(const shared::LightConstants& light) const { return volumes_.volumes[light.volume]; }
     vk::Buffer volumeIndices() const { return *volumeIndices_.handle; }  ///< of the meshes of all levels of detail
     /// The lights in view space, for the frame to fill.
@@ -113,6 +114,7 @@ private:
     vk::DescriptorSet frameSet_;
     SortedLights lights_;
     VolumeTables volumes_;
+    ObjectClasses objectClasses_;
     shared::ViewConstants viewConstants_{};
     Ambience ambience_;
     float exposureEv_ = 0;

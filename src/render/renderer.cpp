@@ -14,6 +14,7 @@
 #include "render/gpu_scene.hpp"
 #include "render/lighting/forward.hpp"
 #include "render/lighting/light_index.hpp"
+#include "render/lighting/light_index_self_test.hpp"
 #include "render/lighting/techniques.hpp"
 #include "render/post/post.hpp"
 
@@ -159,7 +160,10 @@ void checkAgainstDevice(const gpu::Context& context, uvec2 extent) {
 }  // namespace render
 
 struct Renderer::Impl {
-    explicit Impl(const RendererOptions& options) : context(options), pipelines(context, gpu::shaderCode) { setScene({}); }
+    explicit Impl(const RendererOptions& options)
+        : context(options), pipelines(context, gpu::shaderCode), selfTest(context, pipelines, options.cacheFolder) {
+        setScene({});
+    }
 
     void setScene(const Scene& scene) {
         frame.reset();
@@ -170,6 +174,17 @@ struct Renderer::Impl {
             gpuScene = std::make_unique<render::GpuScene>(context, pipelines, Scene{});
             throw;
         }
+    }
+
+    /// How the packing that the settings ask for fares on the device.
+    render::LightIndexSelfTest::Outcome trial(const RenderSettings& settings) {
+        if (settings.lighting != "light-indexed" || settings.lidrPacking == LidrPacking::list) return {};
+        const render::IndexLayout layout = render::indexLayout(settings, gpuScene->lightCount());
+        const render::LightIndexSelfTest::Outcome outcome = selfTest.of(layout);
+        if (outcome.wrong > 0 && settings.onOverflow != OnOverflow::exact)
+            throw Error(ErrorKind::device, fmt::format("lidr-packing: {} blends {} values of {} {}x{} inexactly (on-overflow exact takes lists instead)",
+                                                       context.info().name, outcome.wrong, getSetting(settings, "lidr-packing"), layout.overlap, layout.mostIndex));
+        return outcome;
     }
 
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
@@ -185,6 +200,8 @@ struct Renderer::Impl {
         if (frame) key.attempt = frame->key.attempt;
         if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
         std::optional<LightIndexStats> lightIndex;
+        const render::LightIndexSelfTest::Outcome tried = trial(settings);
+        key.attempt.list |= tried.wrong > 0;
         std::chrono::duration<double, std::milli> wall{};
         for (std::optional<render::LightIndexAttempt> attempt = key.attempt; attempt;) {
             key.attempt = *attempt;
@@ -205,6 +222,7 @@ struct Renderer::Impl {
                                         context.limits().maxStorageBufferRange, lightIndex.emplace());
         }
 
+        if (lightIndex) lightIndex->selfTestMs = tried.ms, lightIndex->wrongValues = tried.wrong;
         frame->excessive = lightIndex && lightIndex->fellBack && lightIndex->pixelsOver == 0;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
@@ -223,6 +241,7 @@ struct Renderer::Impl {
 
     gpu::Context context;
     gpu::Pipelines pipelines;
+    render::LightIndexSelfTest selfTest;
     std::unique_ptr<render::GpuScene> gpuScene;
     std::unique_ptr<render::BuiltFrame> frame;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "render/lighting/light_volume.shared.h"
 
@@ -273,6 +274,22 @@ std::vector<uint32_t> linkTable(const Scene& scene, uint32_t& words) {
             if (lit[id]) table[row * words + id / 32] |= 1u << (id % 32);
     }
     return table;
+}
+
+ObjectClasses objectClasses(const Scene& scene) {
+    ObjectClasses classes{.classOfObject = {0}};
+    std::map<std::vector<bool>, uint32_t> known;
+    for (const Object& object : scene.objects) {
+        const uint32_t id = object.objectId;
+        std::vector<bool> groups;
+        for (const LinkGroup& group : scene.linkGroups) groups.push_back(id < group.litObjects.size() && group.litObjects[id]);
+        const auto [place, added] = known.emplace(std::move(groups), uint32_t(classes.objectOfClass.size()));
+        if (added) classes.objectOfClass.push_back(id);
+        if (classes.classOfObject.size() <= id) classes.classOfObject.resize(id + 1);
+        classes.classOfObject[id] = place->second;
+    }
+    if (classes.objectOfClass.empty()) classes.objectOfClass.push_back(0);
+    return classes;
 }
 
 }  // namespace luciole::render

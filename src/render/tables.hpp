@@ -55,6 +55,13 @@ std::vector<vec2> functionTable(const std::vector<Function>& functions);
 /// One row of bits per link group, bit i of a row: object ID i is lit. \param words 32-bit words per row
 std::vector<uint32_t> linkTable(const Scene& scene, uint32_t& words);
 
+/// Objects by the lights that touch them: two IDs that the same link groups hold are of one class.
+struct ObjectClasses {
+    std::vector<uint32_t> classOfObject;  ///< by object ID, up to the largest one there is
+    std::vector<uint32_t> objectOfClass;  ///< an ID of each class
+};
+ObjectClasses objectClasses(const Scene& scene);
+
 /// clipFromView of docs/conventions.md, "Spaces".
 dmat4 clipFromView(const Camera& camera, double aspect);
 

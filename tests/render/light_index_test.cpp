@@ -1,9 +1,13 @@
+#include <filesystem>
+#include <fstream>
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
+#include <random>
 
 #include "device.hpp"
 #include "image_difference.hpp"
-#include "render/lighting/light_index_plan.hpp"
+#include "gpu/shaders.hpp"
+#include "render/lighting/light_index_self_test.hpp"
 #include "scene_building.hpp"
 #include "scenes.hpp"
 
@@ -58,7 +62,7 @@ std::vector<uint32_t> hitsOf(ValidatedRenderer& renderer, Scene scene, const Vie
 
 }  // namespace
 
-TEST_CASE("light-indexed: every packing at every capacity equals the loop over all lights, on six scenes") {
+TEST_CASE("light-indexed: every packing at every capacity equals the loop over all lights, on seven scenes") {
     ValidatedRenderer renderer;
     const auto scenes = testScenes();
     REQUIRE(scenes.size() >= 8);
@@ -97,7 +101,9 @@ TEST_CASE("light-indexed: pixels over capacity are exactly those reported, and a
                 pixels += count > row.overlap;
                 pairs += count > row.overlap ? count - row.overlap : 0;
             }
-            const Frame frame = renderer->render(view, settingsOf(row, OnOverflow::priority));
+            RenderSettings settings = settingsOf(row, OnOverflow::priority);
+            settings.lidrCover = LidrCover::surface;  // what brute force counts
+            const Frame frame = renderer->render(view, settings);
             const LightIndexStats& stats = *frame.stats.lightIndex;
             CHECK(stats.pixelsOver == pixels);
             CHECK(stats.pairsOver == pairs);
@@ -105,13 +111,93 @@ TEST_CASE("light-indexed: pixels over capacity are exactly those reported, and a
             if (pixels > 0) {
                 ++saturated;
                 CHECK(difference(frame.radiance, yardstick.radiance).max > 1e-3);
-                const Frame exact = renderer->render(view, settingsOf(row));
+                settings.onOverflow = OnOverflow::exact;
+                const Frame exact = renderer->render(view, settings);
                 CHECK(exact.stats.lightIndex->fellBack);
                 CHECK(exact.stats.lightIndex->pixelsOver == pixels);
                 CHECK(exact.stats.lightIndex->pairsOver == pairs);
-                CHECK_THROWS_AS(renderer->render(view, settingsOf(row, OnOverflow::fail)), Error);
+                settings.onOverflow = OnOverflow::fail;
+                CHECK_THROWS_AS(renderer->render(view, settings), Error);
             }
         }
     }
     CHECK(saturated > 20);
+}
+
+namespace {
+
+/// The settings beside the packing, each way at least once, and in company.
+std::vector<RenderSettings> variants() {
+    std::vector<RenderSettings> settingsList;
+    const auto add = [&](LidrPacking packing, uint32_t overlap, LidrTables tables, LidrTypes types, LidrCover cover) {
+        RenderSettings settings = settingsOf({packing, overlap, LidrIndices::automatic});
+        settings.lidrTables = tables;
+        settings.lidrTypes = types;
+        settings.lidrCover = cover;
+        settingsList.push_back(settings);
+    };
+    using enum LidrPacking;
+    for (const auto types : {LidrTypes::flag, LidrTypes::one, LidrTypes::targets}) {
+        add(bitShift, 8, LidrTables::textures, types, LidrCover::surface);
+        add(cpuSort, 6, LidrTables::buffers, types, LidrCover::frontFaces);
+    }
+    add(bitShift, 16, LidrTables::textures, LidrTypes::targets, LidrCover::frontFaces);
+    add(maxBlend, 4, LidrTables::textures, LidrTypes::flag, LidrCover::frontFaces);
+    add(maxBlendSorted, 4, LidrTables::textures, LidrTypes::one, LidrCover::surface);
+    add(list, 4, LidrTables::buffers, LidrTypes::one, LidrCover::frontFaces);
+    return settingsList;
+}
+
+}  // namespace
+
+TEST_CASE("light-indexed: tables of either kind, types of lights, covers and samples give the picture of the loop over all lights") {
+    ValidatedRenderer renderer;
+    for (const TestScene& test : testScenes()) {
+        if (test.name == "texture corners" || test.name == "builtin:materials") continue;
+        renderer->setScene(test.scene);
+        const View view{test.view.camera, {48, 36}};
+        for (const auto msaa : {Msaa::x1, Msaa::x4}) {
+            const Frame yardstick = renderer->render(view, {.lighting = "forward-loop", .msaa = msaa}, kCounts);
+            for (RenderSettings settings : variants()) {
+                settings.msaa = msaa;
+                INFO("scene " << test.name << ", msaa " << getSetting(settings, "msaa") << ", " << getSetting(settings, "lidr-packing") << " x" << settings.overlap
+                              << ", tables " << getSetting(settings, "lidr-tables") << ", types " << getSetting(settings, "lidr-types") << ", cover "
+                              << getSetting(settings, "lidr-cover"));
+                const Frame frame = renderer->render(view, settings, kCounts);
+                CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+                CHECK(frame.aovs.at("useful-evaluations").data == yardstick.aovs.at("useful-evaluations").data);
+                CHECK(frame.aovs.at("light-fingerprint").data == yardstick.aovs.at("light-fingerprint").data);
+            }
+        }
+    }
+}
+
+TEST_CASE("light-indexed: every value passes every target of every packing, and a factor that is a little off is found out") {
+    SilentValidation validation;
+    const gpu::Context context(validation.options());
+    gpu::Pipelines pipelines(context, gpu::shaderCode);
+    for (const Row& row : allRows()) {
+        if (row.packing == LidrPacking::list) continue;
+        INFO(nameOf(row));
+        const render::IndexLayout layout = render::indexLayout(settingsOf(row), 1);
+        const float shift = render::blendShift(layout.packing);
+        CHECK(render::wrongValues(context, pipelines, layout, shift) == 0);
+        if (layout.packing.kind == shared::kPackedBits && shift > 0) CHECK(render::wrongValues(context, pipelines, layout, shift * 1.04f) > 0);
+    }
+}
+
+TEST_CASE("light-indexed: the outcome of a self-test is kept for the next start, and a damaged file is as good as none") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("luciole-self-test-" + std::to_string(std::random_device{}()));
+    SilentValidation validation;
+    const gpu::Context context(validation.options());
+    gpu::Pipelines pipelines(context, gpu::shaderCode);
+    const render::IndexLayout layout = render::indexLayout(settingsOf({LidrPacking::bitShift, 4, LidrIndices::n255}), 1);
+    CHECK(render::LightIndexSelfTest(context, pipelines, folder.string()).of(layout).ms > 0);
+    CHECK(render::LightIndexSelfTest(context, pipelines, folder.string()).of(layout).ms == 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) std::ofstream(entry.path()) << "bits\t\n\t\nbits 2 R8G8B8A8Unorm\tnone\n";
+    render::LightIndexSelfTest again(context, pipelines, folder.string());
+    CHECK(again.of(layout).ms > 0);
+    CHECK(again.of(layout).wrong == 0);
+    std::filesystem::remove_all(folder);
+    CHECK(render::LightIndexSelfTest(context, pipelines, "/dev/null/nowhere").of(layout).wrong == 0);
 }

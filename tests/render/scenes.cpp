@@ -100,6 +100,26 @@ TestScene boundedLights() {
     return test;
 }
 
+/// The studio behind panes and around a bubble that let it through: lit in both equations, unlit, textured, seen from behind.
+TestScene glass() {
+    TestScene test = studio();
+    test.name = "glass";
+    Scene& scene = test.scene;
+    std::vector<Material> panes = {metallicRoughness(vec3(0.3f, 0.6f, 0.9f), 0, 0.2f), metallicRoughness(vec3(0.9f, 0.7f, 0.4f), 0.5f, 0.5f),
+                                   shaped(scene, vec3(0.8f, 0.3f, 0.5f), Function::Kind::lambert, 0, Function::Kind::blinnPhong, 20, 0.3f),
+                                   unlitMaterial(vec4(0.2f, 0.5f, 0.3f, 1))};
+    panes[1].baseColorTexture = addTexture(scene, 2, 2, {255, 255, 255, 40, 200, 255, 180, 220, 255, 90, 60, 128, 90, 90, 255, 200});
+    for (size_t i = 0; i < panes.size(); ++i) {
+        panes[i].alphaMode = AlphaMode::blend;
+        panes[i].baseColor.w = 0.3f + 0.15f * float(i);
+        panes[i].doubleSided = i == 1;
+        const mat4 place = glm::translate(mat4(1), vec3(float(i) - 1.2f, 1.0f, 4.2f - 0.7f * float(i)));
+        addObject(scene, quad(1.6f), panes[i], i == 1 ? glm::rotate(place, 2.8f, vec3(0, 1, 0)) : place);
+    }
+    addObject(scene, sphere(0.5f, 24, 12), panes[0], glm::translate(mat4(1), vec3(-2.4f, 0.8f, 2.0f)));
+    return test;
+}
+
 }  // namespace
 
 LightVolume prism(const std::vector<vec2>& corners, const mat4& worldFromPrism) {
@@ -179,6 +199,7 @@ std::vector<TestScene> testScenes() {
     orthographic.view.camera.zFar = 40;
     scenes.push_back(std::move(orthographic));
     scenes.push_back(boundedLights());
+    scenes.push_back(glass());
     for (const char* uri : {"builtin:hall?lights=64&triangles=8000", "builtin:materials", "builtin:fireflies?lights=100"})
         scenes.push_back(builtin(uri));
     return scenes;

@@ -28,6 +28,9 @@ float alpha;
 vec3 sum = vec3(0);
 
 #ifdef MULTISAMPLED
+// Vulkan 1.3, "Multisampling", standard sample locations of 4 samples.
+const vec2 kSamplePositions[4] = vec2[](vec2(0.375, 0.125), vec2(0.875, 0.375), vec2(0.125, 0.625), vec2(0.625, 0.875));
+
 // Of the samples that the triangle covers the first one at which it is seen. Its depth there is computed from its position, so it is as
 // good as equal to the stored one.
 int visibleSample() {
@@ -55,8 +58,12 @@ void beginSurface() {
     const MaterialConstants m = materials[s.material];
     s.Cs0 *= m.cs0Scale;
     s.Cs1 *= m.cs1Scale;
-#ifndef MULTISAMPLED
-    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));  // as whoever only knows its depth
+    // As whoever only knows its depth.
+#ifdef MULTISAMPLED
+    const vec2 at = floor(gl_FragCoord.xy) + kSamplePositions[shadingSample];
+    if (kBlended == 0u) s.P = unpackPosition(vec3(at / view.extent, texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x));
+#else
+    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));
 #endif
     point = shadingPoint(s);
     if (kFirst != 0u) sum = initialLight(s, m);

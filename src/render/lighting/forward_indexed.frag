@@ -35,10 +35,12 @@ void main() {
             const PackedIndices packed = packedIndices(set, pass, ivec2(gl_FragCoord.xy), sample_);
             for (uint n = 0u; n < kPerPass; ++n) {
                 const uint index = indexEntry(packed, pass, n);
-                if (index != 0u)
-                    addLight(indexedLight(index));
-                else if (endsAtZero())
+                if (index != 0u) {
+                    const LightConstants light = indexedLight(index);
+                    if (light.range > 0.0) addLight(light);
+                } else if (endsAtZero()) {
                     break;
+                }
             }
         }
     for (uint i = 0u; i < rest.count; ++i) addLight(lightAt(order[rest.first + i]));

@@ -6,6 +6,7 @@
 #include <luciole/error.hpp>
 
 #include "render/lighting/forward.hpp"
+#include "render/lighting/light_index_self_test.hpp"
 #include "render/lighting/light_volumes.hpp"
 
 namespace luciole::render {
@@ -32,6 +33,7 @@ struct Indexing {
     ImageId numbers = {};  ///< else, unless sorted: of each pixel's lights, 255 and more as 255
     bool counted() const { return !guarded && !layout.sorted; }
     BufferId order, shapes, counters;
+    std::vector<ImageId> tables = {};  ///< of light data, if surfaces read it out of textures
 
     /// Specialization constants of the passes that draw lights.
     std::vector<uint32_t> drawConstants() const {
@@ -130,7 +132,7 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
         if (x.samples) fragment += "+MULTISAMPLED";
         pass.record([&scene = x.in.scene, draws, fragment, blend, packing, guarded = x.guarded, counted = x.counted(), surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
             // Moves what is there down by the digits of one index.
-            const float shift = packing.entryBits == 8 ? 0.0f : 1.0f / float(1u << packing.entryBits);
+            const float shift = blendShift(packing);
             context.commands.setBlendConstants(std::array{shift, shift, shift, shift}.data());
             for (const IndexDraw& draw : draws) {
                 context.bind({.vertex = "render/lighting/light_index.vert",
@@ -194,6 +196,36 @@ void addLost(FrameGraph& graph, const Indexing& x, const std::vector<ImageId>& i
         });
 }
 
+uint32_t tableRows(const Indexing& x) { return (x.in.scene.lightCount() + 256) / 256; }  // the null light is one more
+
+/// Light data as textures, 256 lights a row, a block of rows of colours for each class of objects.
+void addTables(FrameGraph& graph, Indexing& x) {
+    using namespace shared;
+    const LightingInputs& in = x.in;
+    const uint32_t rows = tableRows(x);
+    const auto classes = (in.constants[kConstantLights] & kUsesLinks) != 0 ? uint32_t(in.scene.objectClasses().objectOfClass.size()) : 1;
+    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kCountsLights)) != 0;
+    const auto image = [&](const char* name, uint32_t blocks) {
+        return graph.createImage(name, {vk::Format::eR32G32B32A32Sfloat, {256, rows * blocks}});
+    };
+    x.tables = {image("light-table.positions", 1), image("light-table.colors", classes)};
+    if (all) for (const char* name : {"light-table.directions", "light-table.kinds", "light-table.functions"}) x.tables.push_back(image(name, 1));
+    const BufferId objects = graph.createConstantBuffer("light-table.objects", in.scene.objectClasses().objectOfClass);
+    std::vector<uint32_t> constants = in.constants;
+    constants.insert(constants.end(), {rows, uint32_t(x.plan.remapped)});
+    for (const bool colors : {false, true}) {
+        auto pass = graph.addPass(in.phase + (colors ? "light-indexed.colors" : "light-indexed.tables"));
+        pass.read(in.lights, Access::tableRead).read(x.order, Access::fragmentStorageRead, kIndexOrder).read(objects, Access::fragmentStorageRead, kIndexShapes);
+        for (uint32_t i = 0; i < x.tables.size(); ++i)
+            if ((i == 1) == colors) pass.write(x.tables[i], Access::colorWrite);
+        const std::string fragment = std::string("render/lighting/light_tables.frag") + (colors ? "+COLORS" : all ? "+ALL" : "");
+        pass.record([fragment, constants](PassContext& context) {
+            context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .constants = constants});
+            context.drawFullScreen();
+        });
+    }
+}
+
 /// Step 3: surfaces look their lights up.
 void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images, Surfaces which, bool first) {
     const shared::IndexPacking& p = x.layout.packing;
@@ -201,8 +233,16 @@ void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::v
     readImages(pass, images.front(), shared::kIndexImages);
     readImages(pass, images.back(), shared::kIndexMoreImages);
     pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
-    SurfaceShading shading = forwardShading(x.in, std::string("render/lighting/forward_indexed.frag") + (x.samples ? "+INDEXSAMPLES" : ""), which, first,
-                                            {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(images.size()), uint32_t(x.plan.remapped)});
+    std::string fragment = "render/lighting/forward_indexed.frag";
+    if (!x.tables.empty()) {
+        fragment += "+TABLES";
+        for (uint32_t i = 0; i < 5; ++i) pass.read(x.tables[i < x.tables.size() ? i : 0], Access::fragmentSampled, shared::kIndexTables + i);
+        pass.read(graph.createConstantBuffer("light-table.classes", x.in.scene.objectClasses().classOfObject), Access::fragmentStorageRead, shared::kIndexShapes);
+    }
+    if (x.samples) fragment += "+INDEXSAMPLES";
+    SurfaceShading shading = forwardShading(x.in, fragment, which, first,
+                                            {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(images.size()),
+                                             uint32_t(x.plan.remapped), tableRows(x)});
     if (first) shading.slice = x.plan.rest;
     pass.record([&scene = x.in.scene, shading, which](PassContext& context) {
         testDepth(context, which);
@@ -338,6 +378,7 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
 
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
     const uint64_t entries = in.attempt.entries ? in.attempt.entries : uint64_t(extent.width) * extent.height * 8;
+    if (!list && settings.lidrTables == LidrTables::textures) addTables(graph, x);
     list ? addLists(graph, x, sum, in.attempt.slices, entries) : addImages(graph, x, sum);
     if (!in.lightIndex) return;
 
@@ -352,7 +393,9 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     frame.stats.fellBack = list && settings.lidrPacking != LidrPacking::list;
     frame.stats.rounds = list ? in.attempt.slices : uint32_t(x.plan.rounds());
     frame.stats.withoutIndex = x.plan.rest.count;
-    frame.stats.tableBytes = in.scene.lightTableBytes();
+    frame.stats.tableBytes = lights * sizeof(shared::LightConstants);
+    if (!x.tables.empty()) frame.stats.tableBytes = 0;
+    for (const ImageId table : x.tables) frame.stats.tableBytes += graph.resources()[table.index].bytes();
     frame.stats.packing = "list";
     if (!list) {
         frame.stats.packing = fmt::format("{} {}x{}", getSetting(settings, "lidr-packing"), x.layout.overlap, x.layout.mostIndex);

@@ -23,7 +23,7 @@ struct IndexPacking {
 const uint kIndexDepth = 4u;       // where lights are drawn: the depth that decides
 const uint kIndexImages = 0u;      // up to 4
 const uint kIndexMoreImages = 5u;  // up to 4: those of the second type of light
-const uint kIndexTables = 9u;      // kLightTables
+const uint kIndexTables = 9u;      // 5 textures of light data (light_tables.frag)
 const uint kIndexOrder = 0u;       // storage buffers: the lights in the order that they are drawn in
 const uint kIndexShapes = 1u;      // by light: kShape*
 const uint kIndexCounters = 2u;

@@ -26,8 +26,10 @@ layout(set = 1, binding = kIndexDepth) uniform sampler2D depths;
 #endif
 
 #ifdef MULTISAMPLED
+vec2 sampleHere() { return floor(gl_FragCoord.xy) + gl_SamplePosition; }
 float surfaceDepth() { return texelFetch(depths, ivec2(gl_FragCoord.xy), gl_SampleID).x; }
 #else
+vec2 sampleHere() { return gl_FragCoord.xy; }
 float surfaceDepth() { return texelFetch(depths, ivec2(gl_FragCoord.xy), 0).x; }
 #endif
 
@@ -47,6 +49,6 @@ bool hits() {
     light.range *= 1.00001;  // the surface finds its position by itself
     light.cosOuter -= 1e-5;
 #endif
-    return depth > 0.0 && reaches(light, unpackPosition(vec3(gl_FragCoord.xy / view.extent, depth)), 0u);
+    return depth > 0.0 && reaches(light, unpackPosition(vec3(sampleHere() / view.extent, depth)), 0u);
 }
 #endif

@@ -9,15 +9,15 @@ layout(set = 1, binding = kPassStorage + kIndexOffsets, scalar) buffer Seen { ui
 
 #ifdef MULTISAMPLED
 const int kSamples = 4;
-int sampleHere() { return gl_SampleID; }
+int sampleNumber() { return gl_SampleID; }
 #else
 const int kSamples = 1;
-int sampleHere() { return 0; }
+int sampleNumber() { return 0; }
 #endif
 
 bool kept() {
     for (uint pass = 0u; pass < kPasses; ++pass) {
-        const PackedIndices packed = packedIndices(0u, pass, ivec2(gl_FragCoord.xy), sampleHere());
+        const PackedIndices packed = packedIndices(0u, pass, ivec2(gl_FragCoord.xy), sampleNumber());
         for (uint n = 0u; n < kPerPass; ++n)
             if (indexEntry(packed, pass, n) == index) return true;
     }
@@ -29,11 +29,11 @@ bool kept() {
 void main() {
     if (!hits() || kept()) return;
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
-    if (atomicExchange(seen[(pixel.y * int(view.extent.x) + pixel.x) * kSamples + sampleHere()], 1u) == 0u)
+    if (atomicExchange(seen[(pixel.y * int(view.extent.x) + pixel.x) * kSamples + sampleNumber()], 1u) == 0u)
         atomicAdd(counters[kCounterPixels], 1u);
     const uint first = kCounterCount + lightIndex * kLostWords;
     atomicAdd(counters[first], 1u);
-    const vec3 P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, surfaceDepth()));
+    const vec3 P = unpackPosition(vec3(sampleHere() / view.extent, surfaceDepth()));
     const float radiance = surfaceDepth() > 0.0 ? dot(arrivalAt(lights[lightIndex], P).E, vec3(0.2126, 0.7152, 0.0722)) / kPi : 0.0;
     const uint amount = uint(clamp(radiance * 65536.0 + 0.5, 0.0, 4294967040.0));
     if (atomicAdd(counters[first + 1u], amount) > 0xffffffffu - amount) atomicAdd(counters[first + 2u], 1u);
