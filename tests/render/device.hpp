@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -46,21 +47,33 @@ class Yardsticks {
 public:
     Yardsticks(ValidatedRenderer& renderer, const View& view, const RenderSettings& settings, std::vector<std::string> aovs = {})
         : renderer_(renderer), view_(view), settings_(settings), aovs_(std::move(aovs)) {}
-    const Frame& of(const render::LightingTechnique& technique) {
-        const std::string name = render::yardstickOf(technique);
-        if (!frames_.contains(name)) {
-            settings_.lighting = name;
-            frames_[name] = renderer_->render(view_, settings_, aovs_);
-        }
-        return frames_.at(name);
+    const Frame& of(const render::LightingTechnique& technique) { return named(render::yardstickOf(technique), aovs_); }
+
+    /// Pixels at which the technique's picture has to be the yardstick's: all but those where surfaces coincide, to the bit, if it draws
+    /// them once for each light and adds up: there it adds them all. \param lights of the scene: what a surface evaluates
+    std::vector<bool> comparable(const render::LightingTechnique& technique, size_t lights) {
+        std::vector<bool> pixels(size_t(view_.extent.x) * view_.extent.y, true);
+        if (technique.info.name != "forward-multipass") return pixels;
+        const Image& evaluations = named("forward-loop", {"evaluations"}).aovs.at("evaluations");
+        for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = evaluations.data[i] <= float(lights);
+        return pixels;
     }
 
 private:
+    const Frame& named(const std::string& name, const std::vector<std::string>& aovs) {
+        const auto key = std::pair(name, aovs);
+        if (!frames_.contains(key)) {
+            settings_.lighting = name;
+            frames_[key] = renderer_->render(view_, settings_, aovs);
+        }
+        return frames_.at(key);
+    }
+
     ValidatedRenderer& renderer_;
     View view_;
     RenderSettings settings_;
     std::vector<std::string> aovs_;
-    std::map<std::string, Frame> frames_;
+    std::map<std::pair<std::string, std::vector<std::string>>, Frame> frames_;
 };
 
 }  // namespace luciole::test

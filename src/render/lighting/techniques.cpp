@@ -38,6 +38,10 @@ const std::vector<LightingTechnique>& techniques() {
         {{"forward-loop", "surfaces lit while they are drawn, all lights in one loop: the yardstick of forward techniques", "baseline"},
          addForwardLoop,
          true},
+        {{"forward-multipass", "surfaces drawn once more for each light, those that it can touch only, and added up",
+          "Trebilco 2009, Light-Indexed Deferred Rendering: what it compares with (figure 2.9.1)"},
+         addForwardMultipass,
+         true},
     };
     return table;
 }

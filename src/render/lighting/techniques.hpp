@@ -56,6 +56,7 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
+void addForwardMultipass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
