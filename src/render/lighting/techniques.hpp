@@ -66,8 +66,8 @@ void addVolumeStencil(frame::FrameGraph& graph, const LightingInputs& in, frame:
 void addVolumeStencilReference(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 
-/// Draws lights [first, first + count) at every pixel that holds a surface, summed in registers (brute_force.frag).
+/// Draws lights [first, first + count) at every pixel that holds a surface. \param fragment what sums up a slice of them in registers
 void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std::vector<uint32_t>& constants, uint32_t first,
-                      uint32_t count);
+                      uint32_t count, const std::string& fragment = "render/lighting/brute_force.frag");
 
 }  // namespace luciole::render
