@@ -37,8 +37,9 @@ using AddLighting = void (*)(frame::FrameGraph& graph, const LightingInputs& in,
 struct LightingTechnique {
     LightingTechniqueInfo info;
     AddLighting add;
-    bool forward = false;  ///< lights surfaces while it draws them: no G-buffer, and any number of samples
+    bool forward = false;  ///< colours surfaces while it draws them: no G-buffer
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
+    bool samples = forward;  ///< takes any number of samples a pixel
 };
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
@@ -56,6 +57,7 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
+void addLightPrepass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardMultipass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
