@@ -34,15 +34,19 @@ std::array<TextureRole, kTextureSlots> texturesOf(const Material& material) {
 
 bool mirrored(const Object& object) { return determinant(dmat3(object.worldFromObject)) < 0; }
 
-/// The middle of the object's bounds.
-vec3 centerOf(const Scene& scene, const Object& object) {
-    vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+/// Contains the object's vertices wherever floats put them in world space.
+Bounds boundsOf(const Scene& scene, const Object& object) {
+    const mat4& m = object.worldFromObject;
+    vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest()), farthest(0);
     for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
-        const vec3 p(object.worldFromObject * vec4(vertex.position, 1));
+        const vec3 p(m * vec4(vertex.position, 1));
         low = min(low, p);
         high = max(high, p);
+        farthest = max(farthest, abs(vertex.position));
     }
-    return 0.5f * (low + high);
+    constexpr float kRounding = 1e-6f;  // of a sum of four products, both here and there: 16 units of roundoff
+    const vec3 terms = abs(vec3(m[0])) * farthest.x + abs(vec3(m[1])) * farthest.y + abs(vec3(m[2])) * farthest.z + abs(vec3(m[3]));
+    return {low - kRounding * terms, high + kRounding * terms};
 }
 
 vk::SamplerAddressMode addressMode(Wrap wrap) {
@@ -86,7 +90,8 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     uploadTextures(scene);
     createMaterialSets(scene, pipelines);
     uploadFunctions(scene);
-    links_ = gpu::uploadBuffer(context_, "link table", linkTable(scene, linkWords_), Usage::eStorageBuffer);
+    linkTable_ = linkTable(scene, linkWords_);
+    links_ = gpu::uploadBuffer(context_, "link table", linkTable_, Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
     constexpr uint32_t kMostLights = 64 * 65535;  // a dispatch of so many, in groups of 64, is the most that every device takes
     if (scene.lights.size() > kMostLights)
@@ -139,8 +144,10 @@ void GpuScene::uploadObjects(const Scene& scene) {
         const auto [blended, material, mesh, flipped] = batchOf(i);
         const Batch alone{mesh, material, flipped, uint32_t(table.size()), 1};
         const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
+        const Bounds bounds = boundsOf(scene, scene.objects[i]);
+        if (!blended) opaque_.push_back({scene.objects[i].objectId, bounds});
         if (blended)
-            blended_.push_back({alone, centerOf(scene, scene.objects[i])});
+            blended_.push_back({alone, 0.5f * (bounds.low + bounds.high)});
         else if (joins)
             ++batches_.back().objectCount;
         else
@@ -349,12 +356,16 @@ void GpuScene::drawDepth(frame::PassContext& pass) const {
 }
 
 void GpuScene::drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const {
+    drawSurfaces(pass, shading, [&](const Batch& batch) { drawBatch(pass, batch); });
+}
+
+void GpuScene::drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading, const std::function<void(const Batch&)>& draw) const {
     if (batches_.empty()) return;
     bindMeshes(pass);
     uint32_t bound = kNone;
     for (const Batch& batch : batches_) {
         if (bound != batch.material) bindMaterial(pass, bound = batch.material, shading);
-        drawBatch(pass, batch);
+        draw(batch);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <vector>
 
 #include <luciole/renderer.hpp>
@@ -18,6 +19,12 @@ struct Batch {
     bool mirrored;
     uint32_t firstObject;
     uint32_t objectCount;
+};
+
+/// An object that hides what is behind it.
+struct OpaqueObject {
+    uint32_t objectId;
+    Bounds boundsWorld;  ///< larger by what floats may round where its vertices are moved into world space
 };
 
 /// An object whose material lets through what is behind it, at its place in the table of objects.
@@ -68,6 +75,15 @@ public:
     /// Draws the surfaces that hide what is behind them: their depth, or shaded.
     void drawDepth(frame::PassContext& pass) const;
     void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const;
+    /// Calls `draw` for each batch of them with its material bound, for whoever draws parts of it, or draws it more than once.
+    void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading, const std::function<void(const Batch&)>& draw) const;
+    void drawBatch(frame::PassContext& pass, const Batch& batch) const;
+    /// Those objects, at their places in the table of objects.
+    const std::vector<OpaqueObject>& opaqueObjects() const { return opaque_; }
+    /// Whether a link group, or kNoIndex, contains an object ID.
+    bool linked(uint32_t group, uint32_t objectId) const {
+        return group == shared::kNoIndex || (linkTable_[group * linkWords_ + objectId / 32] >> objectId % 32 & 1) != 0;
+    }
     /// Draws the surfaces that let through what is behind them, the farthest object first, of each its back faces first.
     bool hasBlended() const { return !blended_.empty(); }
     /// \param shadings one after the other for each object
@@ -94,7 +110,6 @@ private:
     void createFrameSet(const gpu::Pipelines& pipelines);
     void bindMeshes(frame::PassContext& pass) const;
     void bindMaterial(frame::PassContext& pass, uint32_t material, const SurfaceShading& shading) const;
-    void drawBatch(frame::PassContext& pass, const Batch& batch) const;
 
     const gpu::Context& context_;
     gpu::Buffer vertices_, indices_;
@@ -104,6 +119,7 @@ private:
     gpu::MappedBuffer view_;
     gpu::Image functions_;
     std::vector<Batch> batches_;
+    std::vector<OpaqueObject> opaque_;
     std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
     /// Texels by [image][sRGB]: one image may serve as colour and as data.
@@ -120,6 +136,7 @@ private:
     float exposureEv_ = 0;
     uint32_t equations_ = 0;
     uint32_t lightFeatures_ = 0;
+    std::vector<uint32_t> linkTable_;
     uint32_t linkWords_ = 0;
     uint64_t triangles_ = 0;
 };

@@ -141,9 +141,9 @@ RenderSettings structureOf(RenderSettings settings) {
 void checkSettings(const gpu::Context& context, const RenderSettings& settings) {
     const LightingTechnique& technique = techniqueNamed(settings.lighting);
     if (settings.msaa == Msaa::x1) return;
-    if (!technique.forward)
-        throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; forward "
-                                                  "techniques take 4", settings.lighting));
+    if (!technique.samples)
+        throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; techniques that "
+                                                  "light surfaces while they are drawn take 4", settings.lighting));
     if (!(context.sampleCounts() & samplesOf(settings.msaa)))
         throw Error(ErrorKind::usage, fmt::format("msaa: expected 1, as {} shades no samples", context.info().name));
 }

@@ -1,11 +1,13 @@
 #pragma once
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <luciole/renderer.hpp>
 
+#include "image_difference.hpp"
 #include "render/lighting/techniques.hpp"
 
 namespace luciole::test {
@@ -41,26 +43,60 @@ private:
     Renderer renderer_;
 };
 
+/// light-prepass rounds normals to 16 bits a coordinate of the octahedron, a vector (x, y, 1 - |x| - |y|) as short as 1 / sqrt 3: by half
+/// a step of 2 / 65535 in x and y they turn by at most sqrt 6 sqrt 3 / 65535. Light changes by that times the slope of its equation: as
+/// of a cosine mostly, and in the highlight of a surface of roughness 0.2 as 2 / alpha, 50.
+inline constexpr double kNormalTurn = 4.25 / 65535;
+inline constexpr double kSteepest = 50;
+
+/// Checks that a technique's picture is the yardstick's but for rounding. \param lights of the scene
+inline void checkAlike(const render::LightingTechnique& technique, const Image& image, const Image& yardstick,
+                       const std::vector<bool>& mask, size_t lights) {
+    const Difference radiance = difference(image, yardstick, &mask);
+    CHECK(radiance.share > 0.9);
+    if (technique.info.name == "light-prepass") {
+        // What else it rounds, a test of its own shows.
+        CHECK(radiance.mean <= kNormalTurn);
+        CHECK(radiance.p999 <= kSteepest * kNormalTurn);
+    } else {
+        // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
+        CHECK(radiance.max <= 2.0 * double(lights + 1) * std::exp2(-24));
+    }
+}
+
 /// What each technique is held to, in one view of the scene that was set.
 class Yardsticks {
 public:
     Yardsticks(ValidatedRenderer& renderer, const View& view, const RenderSettings& settings, std::vector<std::string> aovs = {})
         : renderer_(renderer), view_(view), settings_(settings), aovs_(std::move(aovs)) {}
-    const Frame& of(const render::LightingTechnique& technique) {
-        const std::string name = render::yardstickOf(technique);
-        if (!frames_.contains(name)) {
-            settings_.lighting = name;
-            frames_[name] = renderer_->render(view_, settings_, aovs_);
-        }
-        return frames_.at(name);
+    const Frame& of(const render::LightingTechnique& technique) { return named(render::yardstickOf(technique), aovs_); }
+
+    /// Pixels at which the technique has to give what the yardstick gives. Of surfaces that coincide, to the bit, one is seen; but
+    /// forward-multipass adds them all, and all are counted where they are drawn, so that forward techniques are not held to them.
+    /// \param lights of the scene: what a surface evaluates
+    std::vector<bool> comparable(const render::LightingTechnique& technique, size_t lights) {
+        std::vector<bool> pixels(size_t(view_.extent.x) * view_.extent.y, true);
+        if (!technique.forward) return pixels;
+        const Image& evaluations = named("forward-loop", {"evaluations"}).aovs.at("evaluations");
+        for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = evaluations.data[i] <= float(lights);
+        return pixels;
     }
 
 private:
+    const Frame& named(const std::string& name, const std::vector<std::string>& aovs) {
+        const auto key = std::pair(name, aovs);
+        if (!frames_.contains(key)) {
+            settings_.lighting = name;
+            frames_[key] = renderer_->render(view_, settings_, aovs);
+        }
+        return frames_.at(key);
+    }
+
     ValidatedRenderer& renderer_;
     View view_;
     RenderSettings settings_;
     std::vector<std::string> aovs_;
-    std::map<std::string, Frame> frames_;
+    std::map<std::pair<std::string, std::vector<std::string>>, Frame> frames_;
 };
 
 }  // namespace luciole::test

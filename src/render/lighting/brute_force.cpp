@@ -5,9 +5,9 @@ namespace luciole::render {
 using frame::Access;
 
 void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std::vector<uint32_t>& constants, uint32_t first,
-                      uint32_t count) {
+                      uint32_t count, const std::string& fragment) {
     pass.bind({.vertex = "render/shaders/full_screen.vert",
-               .fragment = "render/lighting/brute_force.frag",
+               .fragment = fragment,
                .blend = gpu::Blend::add,
                .constants = constants});
     pass.depth(vk::CompareOp::eLess, false);

@@ -40,13 +40,13 @@ SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Su
     return {.fragment = std::move(fragment),
             .frame = in.constants,
             .own = std::move(own),
-            .blend = !blended ? gpu::Blend::replace : first ? gpu::Blend::over : gpu::Blend::add,
+            .blend = which == Surfaces::opaque ? gpu::Blend::replace : blended && first ? gpu::Blend::over : gpu::Blend::add,
             .oneEquation = true};
 }
 
 void testDepth(PassContext& pass, Surfaces which) {
     // Of opaque surfaces that coincide the last one drawn is seen.
-    pass.depth(which == Surfaces::opaque ? vk::CompareOp::eEqual : vk::CompareOp::eGreaterOrEqual, false);
+    pass.depth(which == Surfaces::blended ? vk::CompareOp::eGreaterOrEqual : vk::CompareOp::eEqual, false);
 }
 
 namespace {

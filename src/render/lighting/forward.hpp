@@ -4,7 +4,11 @@
 /// What the techniques that light surfaces while they draw them have in common.
 namespace luciole::render {
 
-enum class Surfaces { opaque, blended };
+enum class Surfaces {
+    opaque,
+    added,    ///< opaque ones, whose light is added to what is there: of those that coincide all are seen
+    blended,
+};
 
 /// A pass that draws surfaces where they are seen. Of opaque surfaces that coincide the last one drawn is, so opaque passes replace what
 /// is there, and a further one has a target of its own.

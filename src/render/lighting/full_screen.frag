@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "render/geometry/gbuffer_read.glsl"
 #include "render/lighting/contribution.glsl"
 
 layout(push_constant, scalar) uniform Push { uint lightIndex; };

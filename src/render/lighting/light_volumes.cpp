@@ -11,7 +11,7 @@ using frame::PassContext;
 /// Stencil counting (Calver 2003, "Concave Light Volume"; the z-fail method of stencil shadow volumes, Everitt and Kilgard 2002,
 /// "Practical and Robust Stenciled Shadow Volumes"): of the faces behind a surface, as many are front faces as back faces
 /// unless the surface is inside. Works from inside as well, and for any closed mesh that winds less than 256 times.
-void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32_t> constants) {
+void drawMeshLights(PassContext& pass, const GpuScene& scene, const std::string& fragment, std::vector<uint32_t> constants) {
     constants[shared::kConstantLights] &= ~shared::kUsesVolumes;  // the stencil says who is inside
     const SortedLights& lights = scene.lights();
     const uint32_t first = lights.unbounded + lights.shaped;
@@ -19,7 +19,7 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32
     pass.commands.setStencilReference(vk::StencilFaceFlagBits::eFrontAndBack, 0);
     PassContext::Draw draw{.vertex = "render/lighting/volume_mesh.vert", .blend = gpu::Blend::add, .depthClamp = clampsDepth(scene), .constants = constants};
     const PassContext::Prepared count = pass.prepare(draw);
-    draw.fragment = "render/lighting/shaped.frag";
+    draw.fragment = fragment;
     const PassContext::Prepared lit = pass.prepare(draw);
     pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
     for (uint32_t light = first; light < first + lights.meshes; ++light) {
@@ -44,20 +44,29 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, std::vector<uint32
 
 }  // namespace
 
-frame::PassBuilder addVolumePass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name,
+VolumeShading deferredShading(const LightingInputs& in, frame::ImageId sum) {
+    return {.shaped = "render/lighting/shaped.frag",
+            .everywhere = "render/lighting/brute_force.frag",
+            .declare = [&in, sum](frame::PassBuilder& pass, Access depth) {
+                in.readBy(pass, depth);
+                pass.update(sum, Access::colorBlend);
+            }};
+}
+
+frame::PassBuilder addVolumePass(frame::FrameGraph& graph, const LightingInputs& in, const VolumeShading& shading, const std::string& name,
                                  bool stencil, std::function<void(PassContext&, const std::vector<uint32_t>&)> drawShaped) {
-    auto pass = graph.addPass(name);
+    auto pass = graph.addPass(in.phase + name);
     const bool marks = stencil || in.scene.lights().meshes > 0;
-    in.readBy(pass, marks ? Access::stencilWrite : Access::depthTest);
-    pass.update(sum, Access::colorBlend)
-        .record([&scene = in.scene, constants = in.constants, drawShaped = std::move(drawShaped)](PassContext& context) {
-            if (scene.lights().unbounded > 0) drawAtEveryPixel(context, scene, constants, 0, scene.lights().unbounded);
-            if (scene.lights().shaped > 0) {
-                context.commands.bindIndexBuffer(scene.volumeIndices(), 0, vk::IndexType::eUint32);
-                drawShaped(context, constants);
-            }
-            if (scene.lights().meshes > 0) drawMeshLights(context, scene, constants);
-        });
+    shading.declare(pass, marks ? Access::stencilWrite : Access::depthTest);
+    pass.record([&scene = in.scene, constants = in.constants, shaped = shading.shaped, everywhere = shading.everywhere,
+                 drawShaped = std::move(drawShaped)](PassContext& context) {
+        if (scene.lights().unbounded > 0) drawAtEveryPixel(context, scene, constants, 0, scene.lights().unbounded, everywhere);
+        if (scene.lights().shaped > 0) {
+            context.commands.bindIndexBuffer(scene.volumeIndices(), 0, vk::IndexType::eUint32);
+            drawShaped(context, constants);
+        }
+        if (scene.lights().meshes > 0) drawMeshLights(context, scene, shaped, constants);
+    });
     return pass;
 }
 

@@ -43,6 +43,16 @@ const std::vector<LightingTechnique>& techniques() {
          addLightIndexed,
          true,
          LightingTechnique::Stencil::always},
+        {{"forward-multipass", "surfaces drawn once more for each light, those that it can touch only, and added up",
+          "Trebilco 2009, Light-Indexed Deferred Rendering: what it compares with (figure 2.9.1)"},
+         addForwardMultipass,
+         true},
+        {{"light-prepass", "light volumes add up light terms from normals alone, surfaces are drawn once more and give them colour",
+          "Engel 2008, Designing a Renderer for Multiple Lights: The Light Pre-Pass Renderer"},
+         addLightPrepass,
+         true,
+         LightingTechnique::Stencil::forMeshes,
+         false},
     };
     return table;
 }

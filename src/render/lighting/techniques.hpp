@@ -50,8 +50,9 @@ using AddLighting = void (*)(frame::FrameGraph& graph, const LightingInputs& in,
 struct LightingTechnique {
     LightingTechniqueInfo info;
     AddLighting add;
-    bool forward = false;  ///< lights surfaces while it draws them: no G-buffer, and any number of samples
+    bool forward = false;  ///< colours surfaces while it draws them: no G-buffer
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
+    bool samples = forward;  ///< takes any number of samples a pixel
 };
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
@@ -70,6 +71,8 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);
 
 void addLightIndexed(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addLightPrepass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addForwardMultipass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
@@ -79,8 +82,8 @@ void addVolumeStencil(frame::FrameGraph& graph, const LightingInputs& in, frame:
 void addVolumeStencilReference(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 
-/// Draws lights [first, first + count) at every pixel that holds a surface, summed in registers (brute_force.frag).
+/// Draws lights [first, first + count) at every pixel that holds a surface. \param fragment what sums up a slice of them in registers
 void drawAtEveryPixel(frame::PassContext& pass, const GpuScene& scene, const std::vector<uint32_t>& constants, uint32_t first,
-                      uint32_t count);
+                      uint32_t count, const std::string& fragment = "render/lighting/brute_force.frag");
 
 }  // namespace luciole::render

@@ -71,7 +71,7 @@ void drawStencilled(PassContext& pass, const GpuScene& scene, const std::vector<
 
 // Calver 2003, "Convex Light Volumes", light by light.
 void addVolume(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    addVolumePass(graph, in, sum, in.phase + "volume", false,
+    addVolumePass(graph, in, deferredShading(in, sum), "volume", false,
                   [&scene = in.scene](PassContext& pass, const std::vector<uint32_t>& constants) {
                       pass.bind(prepare(pass, scene, "render/lighting/shaped.frag", constants));
                       forEachVolume(scene, [&](uint32_t light, const VolumeDraw& volume) {
@@ -82,14 +82,14 @@ void addVolume(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageI
 }
 
 void addVolumeStencil(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    addVolumePass(graph, in, sum, in.phase + "volume-stencil", true,
+    addVolumePass(graph, in, deferredShading(in, sum), "volume-stencil", true,
                   [&scene = in.scene](PassContext& pass, const std::vector<uint32_t>& constants) {
                       drawStencilled(pass, scene, constants, false);
                   });
 }
 
 void addVolumeStencilReference(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
-    addVolumePass(graph, in, sum, in.phase + "volume-stencil-reference", true,
+    addVolumePass(graph, in, deferredShading(in, sum), "volume-stencil-reference", true,
                   [&scene = in.scene](PassContext& pass, const std::vector<uint32_t>& constants) {
                       drawStencilled(pass, scene, constants, true);
                   });

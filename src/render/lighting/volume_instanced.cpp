@@ -14,7 +14,7 @@ struct VolumeLists {
 };
 
 /// Sorts the shaped lights by how their meshes are drawn (volume_lists.comp).
-VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
+VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in, const std::string& name) {
     const shared::LightSlice shaped{in.scene.lights().unbounded, in.scene.lights().shaped};
     const uint32_t groups = (shaped.count + shared::kVolumeGroup - 1) / shared::kVolumeGroup;
     const BufferId classes = graph.createBuffer("volume.classes", shaped.count * 4ull);
@@ -23,7 +23,7 @@ VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
     const BufferId arguments = graph.createBuffer("volume.arguments", shared::kVolumeClasses * sizeof(shared::IndexedDraw));
     // Every stage is the same shader, which names all four buffers.
     for (uint32_t stage = 0; stage < 3; ++stage) {
-        auto pass = graph.addPass(in.phase + "volume-instanced." + std::array{"classes", "places", "lists"}[stage]);
+        auto pass = graph.addPass(in.phase + name + std::array{".classes", ".places", ".lists"}[stage]);
         pass.read(in.lights, Access::computeTableRead);
         stage == 0 ? pass.write(classes, Access::computeStorageWrite, 0) : pass.update(classes, Access::computeStorageWrite, 0);
         stage == 0 ? pass.write(counts, Access::computeStorageWrite, 1) : pass.update(counts, Access::computeStorageWrite, 1);
@@ -42,13 +42,13 @@ VolumeLists addVolumeLists(frame::FrameGraph& graph, const LightingInputs& in) {
 
 // All volumes that are drawn alike in one instanced draw, as the note on volume deferred shading asks for, with lists and
 // arguments made on the device: what the host does does not depend on the number of lights.
-void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
+void addInstancedVolumes(frame::FrameGraph& graph, const LightingInputs& in, const VolumeShading& shading, const std::string& name) {
     const bool any = in.scene.lights().shaped > 0;
-    const VolumeLists made = any ? addVolumeLists(graph, in) : VolumeLists{};
-    auto pass = addVolumePass(graph, in, sum, in.phase + "volume-instanced", false,
-                              [scene = &in.scene, arguments = made.arguments](PassContext& context, const std::vector<uint32_t>& constants) {
+    const VolumeLists made = any ? addVolumeLists(graph, in, name) : VolumeLists{};
+    auto pass = addVolumePass(graph, in, shading, name, false,
+                              [scene = &in.scene, arguments = made.arguments, fragment = shading.shaped](PassContext& context, const std::vector<uint32_t>& constants) {
                                   context.bind({.vertex = "render/lighting/volume_listed.vert",
-                                                .fragment = "render/lighting/shaped.frag",
+                                                .fragment = fragment,
                                                 .blend = gpu::Blend::add,
                                                 .depthClamp = clampsDepth(*scene),
                                                 .constants = constants});
@@ -60,6 +60,10 @@ void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, fram
                                   }
                               });
     if (any) pass.read(made.lists, Access::fragmentStorageRead, 0).read(made.arguments, Access::indirectRead);
+}
+
+void addVolumeInstanced(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
+    addInstancedVolumes(graph, in, deferredShading(in, sum), "volume-instanced");
 }
 
 }  // namespace luciole::render

@@ -1,4 +1,4 @@
-// The light model: one light at one surface point. Every technique calls `illuminate` and none repeats it.
+// The light model: one light at one surface point. Every technique calls `illuminate`, or its two halves, and none repeats it.
 // Formulas and units: docs/conventions.md.
 #ifndef LUCIOLE_ILLUMINATE_GLSL
 #define LUCIOLE_ILLUMINATE_GLSL
@@ -116,7 +116,7 @@ struct ShadingPoint {
     MaterialConstants m;
     vec3 V;        // to the eye
     // metallic-roughness:
-    vec3 diffuse;  // c_diff / pi
+    vec3 diffuse;  // (1 - F0) c_diff / pi
     vec3 F0;
     float a2;      // alpha^2
     float NoV;
@@ -129,8 +129,8 @@ ShadingPoint shadingPoint(Surface s) {
     p.m = materials[s.material];
     p.V = view.orthographic != 0u ? vec3(0, 0, 1) : normalize(-s.P);
     const float alpha = max(s.roughness, 0.045) * max(s.roughness, 0.045);
-    p.diffuse = s.Cs0 * ((1.0 - s.specularBlend) / kPi);
     p.F0 = mix(vec3(0.04), s.Cs0, s.specularBlend);
+    p.diffuse = (1.0 - p.F0) * s.Cs0 * ((1.0 - s.specularBlend) / kPi);
     p.a2 = alpha * alpha;
     p.NoV = max(abs(dot(s.N, p.V)), 1e-4);
     p.smithV = sqrt(p.NoV * p.NoV * (1.0 - p.a2) + p.a2);
@@ -143,53 +143,75 @@ vec3 halfVector(vec3 V, vec3 L) {
     return sum * inversesqrt(max(dot(sum, sum), 1e-12));
 }
 
+// What a light adds at a surface point, but for the surface's colours: both equations are linear in these, so that terms of many lights
+// may be summed before they are given colour.
+struct LightTerms {
+    vec3 diffuse;
+    vec3 specular;
+    vec3 grazing;  // metallic-roughness: the part of the highlight that is white
+};
+// As many shares of the irradiance E.
+LightTerms termsOf(vec3 shares, vec3 E) { return LightTerms(shares.x * E, shares.y * E, shares.z * E); }
+
 // Calver 2003, "Light Model": Illuminate. Kd and Ks are folded into Cs0 and Cs1. `keep`: diffuse and specular, 0 or 1.
-vec3 illuminateShaped(ShadingPoint p, vec3 V, vec3 L, vec3 E, vec2 keep) {
+vec3 sharesShaped(ShadingPoint p, vec3 V, vec3 L, vec2 keep) {
     const vec3 H = halfVector(V, L);
-    const vec3 Cl = E / kPi;
     const vec2 diffuse = lookUp(p.m.diffuseFunction, bias(dot(p.s.N, L)));
     const float specular = lookUp(p.m.specularFunction, bias(dot(p.s.N, H))).x;
-    const float strength = dot(Cl, vec3(0.2126, 0.7152, 0.0722));
-    const vec3 highlight = p.s.Cs1 * mix(Cl, vec3(strength), p.s.specularBlend);
-    return keep.x * p.s.Cs0 * Cl * diffuse.x + keep.y * specular * highlight * diffuse.y;
+    return vec3(keep.x * diffuse.x, keep.y * specular * diffuse.y, 0) / kPi;
+}
+vec3 shadeShaped(ShadingPoint p, LightTerms terms) {
+    const float strength = dot(terms.specular, vec3(0.2126, 0.7152, 0.0722));
+    return p.s.Cs0 * terms.diffuse + p.s.Cs1 * mix(terms.specular, vec3(strength), p.s.specularBlend);
 }
 
-// glTF 2.0, Appendix B: GGX distribution, height-correlated Smith, Schlick's Fresnel.
-vec3 illuminateMetallicRoughness(ShadingPoint p, vec3 L, vec3 E, vec2 keep) {
+// glTF 2.0, Appendix B: GGX distribution, height-correlated Smith, Schlick's Fresnel, which with k = (1 - V.H)^5 is
+// F = (1 - k) F0 + k, and 1 - F = (1 - k) (1 - F0).
+vec3 sharesMetallicRoughness(ShadingPoint p, vec3 L, vec2 keep) {
     const float NoL = dot(p.s.N, L);
     if (NoL <= 0.0) return vec3(0);
     const vec3 H = halfVector(p.V, L);
     const float NoH = dot(p.s.N, H);
     const float u = 1.0 - max(dot(p.V, H), 0.0);
     const float u2 = u * u;
-    const vec3 F = p.F0 + (1.0 - p.F0) * (u2 * u2 * u);
+    const float k = u2 * u2 * u;
     // 1 - (N.H)^2 as |N x H|^2: near the peak of a smooth surface the difference has no digits left.
     const vec3 NxH = cross(p.s.N, H);
     const float d = NoH * NoH * p.a2 + dot(NxH, NxH);
     const float smithL = sqrt(NoL * NoL * (1.0 - p.a2) + p.a2);
     // D Vis = a^2 / (pi d^2) * 0.5 / (NoL smithV + NoV smithL)
     const float DVis = NoH > 0.0 ? 0.5 * p.a2 / (kPi * d * d * (NoL * p.smithV + p.NoV * smithL)) : 0.0;
-    return (keep.x * (1.0 - F) * p.diffuse + keep.y * F * DVis) * E * NoL;
+    return NoL * vec3(keep.x * (1.0 - k), keep.y * DVis * (1.0 - k), keep.y * DVis * k);
 }
+vec3 shadeMetallicRoughness(ShadingPoint p, LightTerms terms) { return p.diffuse * terms.diffuse + p.F0 * terms.specular + terms.grazing; }
 
-// Radiance that the point sends to the eye from this light.
-vec3 illuminate(ShadingPoint p, LightConstants light) {
+bool hasEquation(ShadingPoint p, uint equation) { return usesEquation(equation) && p.m.equation == equation; }
+
+LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     const Arrival arrival = arrivalAt(light, p.s.P);
-    if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return vec3(0);
-    if (usesLights(kUsesVolumes) && arrival.E != vec3(0) && !inVolume(light, p.s.P)) return vec3(0);
+    vec3 shares = vec3(0);
+    if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return termsOf(shares, vec3(0));
+    if (usesLights(kUsesVolumes) && arrival.E != vec3(0) && !inVolume(light, p.s.P)) return termsOf(shares, vec3(0));
     vec2 keep = vec2(1);
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {
         keep = vec2(light.flags & kLightDiffuse, (light.flags & kLightSpecular) >> 1u);
         if ((light.flags & kLightInfiniteViewer) != 0u) shapedV = vec3(0, 0, 1);
     }
+    if (hasEquation(p, kEquationMetallicRoughness)) shares = sharesMetallicRoughness(p, arrival.L, keep);
+    if (hasEquation(p, kEquationShaped)) shares = sharesShaped(p, shapedV, arrival.L, keep);
+    return termsOf(shares, arrival.E);
+}
+
+// Radiance that the point sends to the eye for the terms of a light, or the sums of those of several.
+vec3 shade(ShadingPoint p, LightTerms terms) {
     vec3 radiance = vec3(0);
-    if (usesEquation(kEquationMetallicRoughness) && p.m.equation == kEquationMetallicRoughness)
-        radiance = illuminateMetallicRoughness(p, arrival.L, arrival.E, keep);
-    if (usesEquation(kEquationShaped) && p.m.equation == kEquationShaped)
-        radiance = illuminateShaped(p, shapedV, arrival.L, arrival.E, keep);
+    if (hasEquation(p, kEquationMetallicRoughness)) radiance = shadeMetallicRoughness(p, terms);
+    if (hasEquation(p, kEquationShaped)) radiance = shadeShaped(p, terms);
     return radiance;
 }
+
+vec3 illuminate(ShadingPoint p, LightConstants light) { return shade(p, lightTerms(p, light)); }
 
 // The light that is there before any light: Calver 2003, "Full screen lights", HemisphereEmissiveLightShader.
 vec3 initialLight(Surface s, MaterialConstants m) {
