@@ -1,5 +1,5 @@
 // The figures of docs/performance.md and docs/techniques.
-//   luciole_bench [frames|shapes] [FRAMES] [WIDTHxHEIGHT]      defaults: frames, 10, 1024x768
+//   luciole_bench [frames|shapes|light-indexed] [FRAMES] [WIDTHxHEIGHT]      defaults: frames, 10, 1024x768
 #include <luciole/error.hpp>
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@ int main(int argc, char** argv) {
     try {
         int next = 1;
         const std::string_view suite = argc > 1 && std::string_view("0123456789").find(argv[1][0]) == std::string_view::npos ? argv[next++] : "frames";
-        if (suite != "frames" && suite != "shapes")
-            throw Error(ErrorKind::usage, fmt::format("expected frames or shapes, got \"{}\"", suite));
+        if (suite != "frames" && suite != "shapes" && suite != "light-indexed")
+            throw Error(ErrorKind::usage, fmt::format("expected frames, shapes or light-indexed, got \"{}\"", suite));
         int frames = 10;
         uvec2 extent(1024, 768);
         char rest = 0;
@@ -26,7 +26,8 @@ int main(int argc, char** argv) {
         Renderer renderer;
         fmt::print("{}, {}; {}x{}; {} frames, interleaved\n", renderer.device().name, renderer.device().driver, extent.x, extent.y,
                    frames);
-        suite == "frames" ? bench::benchFrames(renderer, frames, extent) : bench::benchShapes(renderer, frames, extent);
+        const auto run = suite == "frames" ? bench::benchFrames : suite == "shapes" ? bench::benchShapes : bench::benchLightIndexed;
+        run(renderer, frames, extent);
         return 0;
     } catch (const Error& error) {
         fmt::print(stderr, "luciole_bench: error: {}\n", error.what());

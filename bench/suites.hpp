@@ -18,4 +18,7 @@ void benchFrames(Renderer& renderer, int frames, uvec2 extent);
 /// What the shapes of lights save: Markdown tables of milliseconds and counts.
 void benchShapes(Renderer& renderer, int frames, uvec2 extent);
 
+/// What light-indexed rendering costs beside what it is compared with, and the article's benchmark with its ratios.
+void benchLightIndexed(Renderer& renderer, int frames, uvec2 extent);
+
 }  // namespace luciole::bench

@@ -33,6 +33,7 @@ struct RenderSettings {
     LidrCover lidrCover = LidrCover::automatic;
     LidrTypes lidrTypes = LidrTypes::flag;
     LidrTables lidrTables = LidrTables::buffers;
+    bool lidrShare = false;
     bool cullLights = true;
     float exposureEv = 0;  ///< added to Scene::exposureEv
     ToneMap toneMap = ToneMap::aces;

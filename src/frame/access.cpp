@@ -18,6 +18,8 @@ const AccessInfo kTable[] = {
      ImageUse::eColorAttachment, {}, true},
     {"color blend", Stage::eColorAttachmentOutput, Mask::eColorAttachmentRead | Mask::eColorAttachmentWrite,
      Layout::eColorAttachmentOptimal, ImageUse::eColorAttachment, {}, true},
+    {"color feedback", Stage::eColorAttachmentOutput | Stage::eFragmentShader, Mask::eColorAttachmentWrite | Mask::eShaderSampledRead,
+     Layout::eAttachmentFeedbackLoopOptimalEXT, ImageUse::eColorAttachment | ImageUse::eSampled | ImageUse::eAttachmentFeedbackLoopEXT, {}, true},
     {"depth write", kDepthStages, Mask::eDepthStencilAttachmentRead | Mask::eDepthStencilAttachmentWrite,
      Layout::eDepthAttachmentOptimal, ImageUse::eDepthStencilAttachment, {}, true},
     {"depth test", kDepthStages, Mask::eDepthStencilAttachmentRead, Layout::eDepthReadOnlyOptimal,
@@ -58,7 +60,7 @@ bool isDepthAttachment(Access access) {
 }
 
 bool isAttachment(Access access) {
-    return access == Access::colorWrite || access == Access::colorBlend || isDepthAttachment(access);
+    return access == Access::colorWrite || access == Access::colorBlend || access == Access::colorFeedback || isDepthAttachment(access);
 }
 
 vk::ImageLayout layoutOf(Access access, vk::Format format) {

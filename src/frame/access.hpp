@@ -7,6 +7,7 @@ namespace luciole::frame {
 enum class Access : uint8_t {
     colorWrite,           ///< colour attachment, not blended
     colorBlend,           ///< colour attachment, blended over what is there
+    colorFeedback,        ///< colour attachment, not blended, that fragment shaders sample: each pixel what it was before they write it
     depthWrite,           ///< depth attachment, tested and written
     depthTest,            ///< depth attachment, tested only
     stencilWrite,         ///< depth attachment, tested only, whose stencil is tested and written

@@ -133,6 +133,7 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     std::vector<vk::Format> colorFormats;
     vk::RenderingAttachmentInfo depth, stencil;
     vk::Format depthFormat = vk::Format::eUndefined;
+    bool feedback = false;
     ImageDesc target;  // what all attachments have in common
     for (const Use& use : pass.uses) {
         if (!isAttachment(use.access)) continue;
@@ -150,6 +151,7 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
             if (gpu::hasStencil(depthFormat)) stencil = attachment;
             if (use.access == Access::stencilWrite) depth.storeOp = vk::AttachmentStoreOp::eNone;
         } else {
+            feedback |= use.access == Access::colorFeedback;
             colors.push_back(attachment);
             colorFormats.push_back(resource.image.format);
         }
@@ -158,7 +160,7 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     const bool renders = extent.width != 0;
     const bool computes = std::ranges::any_of(
         pass.uses, [](const Use& use) { return bool(infoOf(use.access).stages & vk::PipelineStageFlagBits2::eComputeShader); });
-    PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, target);
+    PassContext context(commands, pipelines_, *this, pass, colorFormats, depthFormat, target, feedback);
     if (renders || computes) {
         const auto point = renders ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;
         if (frameSet) commands.bindDescriptorSets(point, pipelines_.layout(), shared::kFrameSet, frameSet, nullptr);

@@ -104,10 +104,10 @@ PassBuilder& PassBuilder::use(const Use& use, bool isImage, bool writes) {
     if (target.isImage() != isImage || (isImage ? !info.imageUsage : !info.bufferUsage))
         misuse(pass, target, fmt::format("{} is not for {}", info.name, isImage ? "images" : "buffers"));
     if (writes && !target.content.empty()) misuse(pass, target, fmt::format("{} of a constant", info.name));
-    const bool needsContent = use.access == Access::colorBlend || use.access == Access::depthWrite || use.access == Access::stencilWrite;
+    const bool needsContent = use.access == Access::colorBlend || use.access == Access::colorFeedback || use.access == Access::depthWrite || use.access == Access::stencilWrite;
     if (needsContent && use.overwrites && !use.clear)
         misuse(pass, target, fmt::format("{} needs what is there: update or clear it", info.name));
-    const bool sampled = use.access == Access::fragmentSampled || use.access == Access::computeSampled;
+    const bool sampled = use.access == Access::fragmentSampled || use.access == Access::computeSampled || use.access == Access::colorFeedback;
     const bool stored = !isImage && (use.access == Access::fragmentStorageRead || use.access == Access::fragmentStorageWrite ||
                                      use.access == Access::computeStorageRead ||
                                      use.access == Access::computeStorageWrite);
@@ -130,8 +130,8 @@ PassBuilder& PassBuilder::write(ImageId image, Access access) {
 PassBuilder& PassBuilder::write(BufferId buffer, Access access, uint32_t binding) {
     return use({.resource = buffer.index, .access = access, .binding = binding, .overwrites = true}, false, true);
 }
-PassBuilder& PassBuilder::update(ImageId image, Access access) {
-    return use({.resource = image.index, .access = access}, true, true);
+PassBuilder& PassBuilder::update(ImageId image, Access access, uint32_t binding) {
+    return use({.resource = image.index, .access = access, .binding = binding}, true, true);
 }
 PassBuilder& PassBuilder::update(BufferId buffer, Access access, uint32_t binding) {
     return use({.resource = buffer.index, .access = access, .binding = binding}, false, true);

@@ -68,7 +68,7 @@ public:
     PassBuilder& write(ImageId image, Access access);
     PassBuilder& write(BufferId buffer, Access access, uint32_t binding = kNoBinding);
     /// The pass adds to, or changes parts of, what is there.
-    PassBuilder& update(ImageId image, Access access);
+    PassBuilder& update(ImageId image, Access access, uint32_t binding = kNoBinding);
     PassBuilder& update(BufferId buffer, Access access, uint32_t binding = kNoBinding);
     /// An attachment that starts at `value`.
     PassBuilder& clear(ImageId image, Access access, vk::ClearValue value);

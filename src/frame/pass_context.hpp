@@ -12,9 +12,9 @@ namespace luciole::frame {
 class PassContext {
 public:
     PassContext(const vk::raii::CommandBuffer& commandBuffer, gpu::Pipelines& pipelines, const Executor& executor,
-                const Pass& pass, std::vector<vk::Format> colors, vk::Format depth, const ImageDesc& target)
+                const Pass& pass, std::vector<vk::Format> colors, vk::Format depth, const ImageDesc& target, bool feedback)
         : commands(commandBuffer), pipelines_(pipelines), executor_(executor), pass_(pass), colors_(std::move(colors)), depth_(depth),
-          target_(target) {}
+          target_(target), feedback_(feedback) {}
 
     const vk::raii::CommandBuffer& commands;  ///< for whatever is not wrapped here; draws are, so that they are counted
     vk::Extent2D extent() const { return target_.extent; }  ///< of the attachments; zero without any
@@ -39,7 +39,7 @@ public:
         bool marksStencil;
     };
     Prepared prepare(const Draw& draw) {
-        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend, .lastAdds = draw.lastAdds,
+        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend, .feedback = feedback_, .lastAdds = draw.lastAdds,
                                 .channels = draw.channels, .depthClamp = draw.depthClamp, .constants = draw.constants,
                                 .colors = colors_, .depth = depth_, .samples = target_.samples}),
                 !colors_.empty() && draw.fragment.empty()};
@@ -115,6 +115,7 @@ private:
     std::vector<vk::Format> colors_;
     vk::Format depth_;
     ImageDesc target_;
+    bool feedback_;
     DrawCounts counts_;
     bool marksStencil_ = false;
 };

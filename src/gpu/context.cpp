@@ -168,6 +168,15 @@ vk::raii::PhysicalDevice pick(const vk::raii::Instance& instance, const std::str
     return devices[*best];
 }
 
+bool hasFeedbackLoops(const vk::raii::PhysicalDevice& physical) {
+    const auto extensions = physical.enumerateDeviceExtensionProperties();
+    if (std::ranges::none_of(extensions, [](const auto& extension) { return std::strcmp(extension.extensionName, VK_EXT_ATTACHMENT_FEEDBACK_LOOP_LAYOUT_EXTENSION_NAME) == 0; }))
+        return false;
+    return physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT>()
+        .get<vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT>()
+        .attachmentFeedbackLoopLayout;
+}
+
 vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queueFamily, .queueCount = 1, .pQueuePriorities = &priority};
@@ -180,8 +189,15 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
                                               .sampleRateShading = has.sampleRateShading,
                                               .depthClamp = true,
                                               .fragmentStoresAndAtomics = has.fragmentStoresAndAtomics};
-    const vk::DeviceCreateInfo info{
-        .pNext = &v12, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue, .pEnabledFeatures = &features};
+    vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT feedback{.pNext = &v12, .attachmentFeedbackLoopLayout = true};
+    const bool feeds = hasFeedbackLoops(physical);
+    const char* extension = VK_EXT_ATTACHMENT_FEEDBACK_LOOP_LAYOUT_EXTENSION_NAME;
+    const vk::DeviceCreateInfo info{.pNext = feeds ? static_cast<const void*>(&feedback) : &v12,
+                                    .queueCreateInfoCount = 1,
+                                    .pQueueCreateInfos = &queue,
+                                    .enabledExtensionCount = feeds ? 1u : 0u,
+                                    .ppEnabledExtensionNames = &extension,
+                                    .pEnabledFeatures = &features};
     return vk::raii::Device(physical, info);
 }
 
@@ -213,6 +229,7 @@ Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMess
     limits_ = physical_.getProperties().limits;
     const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
     fragmentStores_ = features.fragmentStoresAndAtomics;
+    feedbackLoops_ = hasFeedbackLoops(physical_);
     sampleCounts_ = vk::SampleCountFlagBits::e1;
     if (features.sampleRateShading && limits_.standardSampleLocations)
         sampleCounts_ |= limits_.framebufferColorSampleCounts & limits_.framebufferDepthSampleCounts &

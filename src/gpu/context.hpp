@@ -25,6 +25,7 @@ public:
     const vk::raii::Queue& queue() const { return queue_; }
     const vk::raii::CommandPool& commandPool() const { return commandPool_; }
     bool labels() const { return labels_; }
+    bool feedbackLoops() const { return feedbackLoops_; }  ///< a pass may sample the colour attachment that it writes
     bool fragmentStores() const { return fragmentStores_; }  ///< fragment shaders may write to buffers
     vk::SampleCountFlags sampleCounts() const { return sampleCounts_; }  ///< of colour and depth, with shading by sample
     vk::FormatProperties formatProperties(vk::Format format) const { return physical_.getFormatProperties(format); }
@@ -86,6 +87,7 @@ private:
     DeviceInfo info_;
     bool labels_ = false;
     bool fragmentStores_ = false;
+    bool feedbackLoops_ = false;
     vk::SampleCountFlags sampleCounts_;
     uint64_t maxBufferBytes_ = 0;
     uint64_t timestampMask_ = 0;

@@ -179,6 +179,7 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
                                                   .stencilAttachmentFormat = hasStencil(key.depth) ? key.depth : vk::Format::eUndefined};
     return {context_.device(), nullptr,
             vk::GraphicsPipelineCreateInfo{.pNext = &formats,
+                                           .flags = key.feedback ? vk::PipelineCreateFlagBits::eColorAttachmentFeedbackLoopEXT : vk::PipelineCreateFlags(),
                                            .stageCount = uint32_t(stages.size()),
                                            .pStages = stages.data(),
                                            .pVertexInputState = &vertices,

@@ -28,6 +28,7 @@ struct PipelineKey {
     std::string fragment;               ///< empty: nothing is written to colour attachments
     bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
     Blend blend = Blend::replace;
+    bool feedback = false;              ///< reads the colour attachment that it writes
     bool lastAdds = false;              ///< the last colour attachment adds, whatever the others do
     uint8_t channels = 0xf;             ///< bit i: channel i of the colour attachments is written
     bool depthClamp = false;            ///< depth is clamped to [0, 1] where it would be clipped

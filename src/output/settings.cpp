@@ -137,6 +137,7 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::lidrCover, kLidrCoverNames>("lidr-cover", "light-indexed: which lights a pixel indexes"),
         choice<&RenderSettings::lidrTypes, kLidrTypesNames>("lidr-types", "light-indexed: indices for all types of light by a flag, for points only, or in targets of their own"),
         choice<&RenderSettings::lidrTables, kLidrTablesNames>("lidr-tables", "light-indexed: where surfaces read the data of lights"),
+        onOff<&RenderSettings::lidrShare>("lidr-share", "light-indexed: the light buffer holds the indices before it holds light, where the device allows it"),
         onOff<&RenderSettings::cullLights>("cull-lights", "leave out lights whose shape covers no pixel; off to measure what that saves"),
         number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),
         choice<&RenderSettings::toneMap, kToneMapNames>("tonemap", "how radiance becomes a picture"),

@@ -140,6 +140,9 @@ RenderSettings structureOf(RenderSettings settings) {
 
 void checkSettings(const gpu::Context& context, const RenderSettings& settings) {
     const LightingTechnique& technique = techniqueNamed(settings.lighting);
+    if (settings.lidrShare && !context.feedbackLoops())
+        throw Error(ErrorKind::usage, fmt::format("lidr-share: expected off, as {} can't sample the colour attachment that a pass writes "
+                                                  "(VK_EXT_attachment_feedback_loop_layout)", context.info().name));
     if (settings.msaa == Msaa::x1) return;
     if (!technique.samples)
         throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; techniques that "

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -72,13 +73,14 @@ public:
     const Frame& of(const render::LightingTechnique& technique) { return named(render::yardstickOf(technique), aovs_); }
 
     /// Pixels at which the technique has to give what the yardstick gives. Of surfaces that coincide, to the bit, one is seen; but
-    /// forward-multipass adds them all, and all are counted where they are drawn, so that forward techniques are not held to them.
-    /// \param lights of the scene: what a surface evaluates
-    std::vector<bool> comparable(const render::LightingTechnique& technique, size_t lights) {
+    /// forward-multipass adds them all, and all are counted where they are drawn, so that forward techniques are not held to them. Such
+    /// pixels evaluate more lights than there are, as do those behind surfaces that blend: a scene has the one or the other.
+    std::vector<bool> comparable(const render::LightingTechnique& technique, const Scene& scene) {
         std::vector<bool> pixels(size_t(view_.extent.x) * view_.extent.y, true);
-        if (!technique.forward) return pixels;
+        const bool blends = std::ranges::any_of(scene.materials, [](const Material& material) { return material.alphaMode == AlphaMode::blend; });
+        if (!technique.forward || blends) return pixels;
         const Image& evaluations = named("forward-loop", {"evaluations"}).aovs.at("evaluations");
-        for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = evaluations.data[i] <= float(lights);
+        for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = evaluations.data[i] <= float(scene.lights.size());
         return pixels;
     }
 

@@ -201,3 +201,94 @@ TEST_CASE("light-indexed: the outcome of a self-test is kept for the next start,
     std::filesystem::remove_all(folder);
     CHECK(render::LightIndexSelfTest(context, pipelines, "/dev/null/nowhere").of(layout).wrong == 0);
 }
+
+TEST_CASE("light-indexed: the light buffer serves as index image, and what it can't hold is refused by name") {
+    ValidatedRenderer renderer;
+    for (const TestScene& test : {studio(), testScenes().back()}) {
+        renderer->setScene(test.scene);
+        const View view{test.view.camera, {96, 72}};
+        const Frame yardstick = renderer->render(view, {.lighting = "forward-loop"});
+        for (const auto& [overlap, indices] : {std::pair(4u, LidrIndices::n255), std::pair(2u, LidrIndices::n65535)}) {
+            RenderSettings settings = settingsOf({LidrPacking::bitShift, overlap, indices});
+            settings.lidrShare = true;
+            const Frame frame = renderer->render(view, settings);
+            CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+            settings.onOverflow = OnOverflow::priority;
+            CHECK(renderer->render(view, settings).stats.lightIndex->imageBytes == 0);
+        }
+        RenderSettings eight = settingsOf({LidrPacking::bitShift, 8, LidrIndices::n255});
+        eight.lidrShare = true;
+        CHECK_THROWS_WITH_AS(renderer->render(view, eight), doctest::Contains("lidr-share: expected a packing of four channels"), Error);
+    }
+    SilentValidation validation;
+    const gpu::Context context(validation.options());
+    gpu::Pipelines pipelines(context, gpu::shaderCode);
+    for (const auto format : {LightBufferFormat::rgba32f, LightBufferFormat::rgba16f})
+        for (const auto& [overlap, indices] : {std::pair(8u, LidrIndices::n15), std::pair(4u, LidrIndices::n255), std::pair(2u, LidrIndices::n65535)}) {
+            const render::IndexLayout layout = render::indexLayout({.lightBuffer = format, .overlap = overlap, .indices = indices, .lidrShare = true}, 1);
+            CHECK(render::wrongValues(context, pipelines, layout, render::blendShift(layout.packing)) == 0);
+        }
+}
+
+TEST_CASE("light-indexed: an overlap that no packing has is refused with those that there are") {
+    ValidatedRenderer renderer;
+    renderer->setScene(studio().scene);
+    const View view{studio().view.camera, {8, 8}};
+    CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf({LidrPacking::bitShift, 3, LidrIndices::n255})),
+                         "lidr-packing: expected an overlap and indices out of 2x15 4x15 8x15 16x15 1x255 2x255 4x255 8x255 16x255 1x65535 2x65535 4x65535 8x65535, got 3x255",
+                         Error);
+    CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf({LidrPacking::maxBlend, 3, LidrIndices::automatic})), doctest::Contains("2x255 4x255"), Error);
+}
+
+TEST_CASE("light-indexed: bytes of index images and light tables are what the table of the text says") {
+    ValidatedRenderer renderer;
+    Scene scene;
+    addObject(scene, quad(1), lambertMaterial(scene));
+    for (int i = 0; i < 15; ++i) scene.lights.push_back(pointLight(vec3(0.1f * float(i), 0, 1), vec3(1), 0.5f));
+    renderer->setScene(scene);
+    // Channels of 8 bits, by row of Table 2.9.1.
+    constexpr uint32_t kBytes[] = {1, 2, 4, 8, 1, 2, 4, 8, 16, 2, 4, 8, 16};
+    for (size_t i = 0; i < kTable.size(); ++i) {
+        INFO(nameOf(kTable[i]));
+        RenderSettings settings = settingsOf(kTable[i], OnOverflow::priority);
+        settings.lidrTables = LidrTables::textures;
+        const LightIndexStats stats = *renderer->render({frontCamera(), {20, 10}}, settings).stats.lightIndex;
+        CHECK(stats.imageBytes == 200 * kBytes[i]);
+        CHECK(stats.tableBytes == 2 * 256 * 16);  // positions with 1 / range, colours; the text has 8 bits of colour and so 5 KiB
+    }
+}
+
+TEST_CASE("light-indexed: lists come out alike every time, and grow as they need") {
+    ValidatedRenderer renderer;
+    Scene scene = studio().scene;
+    scene.lights.assign(300, pointLight(vec3(0, 1, 0), vec3(0.1f), 9));
+    renderer->setScene(scene);
+    const View view{studio().view.camera, {64, 48}};
+    const RenderSettings settings = settingsOf({LidrPacking::list, 4, LidrIndices::automatic});
+    const Frame first = renderer->render(view, settings);
+    CHECK(first.stats.lightIndex->mostAtOnce == 300);
+    CHECK(first.stats.lightIndex->listEntries > 64 * 48 * 8);  // more than there is room for at first
+    for (int i = 0; i < 3; ++i) CHECK(renderer->render(view, settings).radiance.data == first.radiance.data);
+}
+
+TEST_CASE("light-indexed: where there are more lights than indices, the important ones are kept and the others are reported") {
+    ValidatedRenderer renderer;
+    Scene scene;
+    addObject(scene, quad(1), lambertMaterial(scene));
+    for (int i = 0; i < 20; ++i) scene.lights.push_back(pointLight(vec3(0, 0, 1), vec3(1 + float(i)), 4));
+    renderer->setScene(scene);
+    const Frame frame = renderer->render({frontCamera(), {16, 16}}, settingsOf({LidrPacking::bitShift, 16, LidrIndices::n15}, OnOverflow::priority));
+    const LightIndexStats& stats = *frame.stats.lightIndex;
+    REQUIRE(stats.lost.size() == 5);
+    uint64_t covered = 0;
+    for (const float value : frame.radiance.data) covered += value > 0;
+    for (uint32_t i = 0; i < 5; ++i) {
+        CHECK(stats.lost[i].light == i);  // the weakest
+        CHECK(stats.lost[i].pairs == covered / 3);
+        CHECK(stats.lost[i].radiance > 0);
+    }
+    // In front of the light: E / pi with the range window, 1 m away.
+    const double radiance = stats.lost[4].radiance / double(stats.lost[4].pairs);
+    CHECK(radiance < 5 / kPi);
+    CHECK(radiance > 0.3 * 5 / kPi);
+}

@@ -10,9 +10,10 @@ layout(constant_id = 10) const uint kEntryBits = 2u;
 layout(constant_id = 11) const uint kPerPass = 4u;
 layout(constant_id = 12) const uint kPasses = 1u;
 layout(constant_id = 13) const uint kImages = 1u;
-layout(constant_id = 14) const uint kSets = 1u;      // of images: one, or one a type of light
+layout(constant_id = 14) const uint kUnit = 255u;
+layout(constant_id = 15) const uint kSets = 1u;      // of images: one, or one a type of light
 #include "render/lighting/light_index_unpack.glsl"
-layout(constant_id = 15) const uint kRemapped = 0u;  // IndexPlan
+layout(constant_id = 16) const uint kRemapped = 0u;  // IndexPlan
 
 layout(set = 1, binding = kPassStorage + kIndexOrder, scalar) readonly buffer Order { uint order[]; };
 layout(push_constant, scalar) uniform Push { LightSlice rest; };  // of the order: lights without an index

@@ -19,7 +19,7 @@ using frame::PassContext;
 
 namespace {
 
-constexpr shared::IndexPacking kNoPacking{.kind = shared::kPackedBits, .indexBits = 8, .entryBits = 8, .perPass = 1, .passes = 1, .images = 1};
+constexpr shared::IndexPacking kNoPacking{.kind = shared::kPackedBits, .indexBits = 8, .entryBits = 8, .perPass = 1, .passes = 1, .images = 1, .unit = 255};
 
 /// What all passes of a frame have in common.
 struct Indexing {
@@ -32,6 +32,8 @@ struct Indexing {
     bool guarded;   ///< the stencil counts a pixel's lights, so that those beyond the overlap change nothing
     ImageId numbers = {};  ///< else, unless sorted: of each pixel's lights, 255 and more as 255
     bool counted() const { return !guarded && !layout.sorted; }
+    /// Trebilco 2009, "Buffer Sharing": the light buffer is the index image.
+    bool shared() const { return in.settings.lidrShare && !in.counting(); }
     BufferId order, shapes, counters;
     std::vector<ImageId> tables = {};  ///< of light data, if surfaces read it out of textures
 
@@ -39,7 +41,7 @@ struct Indexing {
     std::vector<uint32_t> drawConstants() const {
         const shared::IndexPacking& p = layout.packing;
         std::vector<uint32_t> constants = in.constants;
-        constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(surfaces), uint32_t(plan.remapped)});
+        constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, uint32_t(surfaces), uint32_t(plan.remapped)});
         return constants;
     }
 };
@@ -226,9 +228,35 @@ void addTables(FrameGraph& graph, Indexing& x) {
     }
 }
 
+/// Specialization constants of forward_indexed.frag.
+std::vector<uint32_t> surfaceConstants(const Indexing& x, uint32_t sets) {
+    const shared::IndexPacking& p = x.layout.packing;
+    return {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, sets, uint32_t(x.plan.remapped), tableRows(x)};
+}
+
+/// The same with the indices in `sum`: each pixel is read once, before it is written; of surfaces that coincide the first one drawn is
+/// seen, as the stencil sees to.
+void addSharedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum) {
+    if (!x.counted()) graph.addPass(x.in.phase + "light-indexed.clear").clear(x.numbers, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    auto pass = graph.addPass(x.in.phase + "light-indexed.surfaces");
+    pass.read(x.in.lights, Access::tableRead)
+        .update(x.in.depth, Access::stencilWrite)
+        .update(sum, Access::colorFeedback, shared::kIndexImages)
+        .read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
+    for (const uint32_t slot : {1u, 2u, 3u}) pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages + slot);  // not looked at
+    readImages(pass, {x.numbers}, shared::kIndexMoreImages);
+    SurfaceShading shading = forwardShading(x.in, "render/lighting/forward_indexed.frag", Surfaces::opaque, true, surfaceConstants(x, 1));
+    shading.slice = x.plan.rest;
+    pass.record([&scene = x.in.scene, shading](PassContext& context) {
+        testDepth(context, Surfaces::opaque);
+        guard(context, 0, 1);
+        scene.drawSurfaces(context, shading);
+    });
+}
+
 /// Step 3: surfaces look their lights up.
 void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images, Surfaces which, bool first) {
-    const shared::IndexPacking& p = x.layout.packing;
+    if (x.shared()) return addSharedSurfaces(graph, x, sum);
     auto [pass, target] = addForwardPass(graph, x.in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
     readImages(pass, images.front(), shared::kIndexImages);
     readImages(pass, images.back(), shared::kIndexMoreImages);
@@ -240,9 +268,7 @@ void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::v
         pass.read(graph.createConstantBuffer("light-table.classes", x.in.scene.objectClasses().classOfObject), Access::fragmentStorageRead, shared::kIndexShapes);
     }
     if (x.samples) fragment += "+INDEXSAMPLES";
-    SurfaceShading shading = forwardShading(x.in, fragment, which, first,
-                                            {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, uint32_t(images.size()),
-                                             uint32_t(x.plan.remapped), tableRows(x)});
+    SurfaceShading shading = forwardShading(x.in, fragment, which, first, surfaceConstants(x, uint32_t(images.size())));
     if (first) shading.slice = x.plan.rest;
     pass.record([&scene = x.in.scene, shading, which](PassContext& context) {
         testDepth(context, which);
@@ -257,7 +283,7 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
     std::vector<std::vector<ImageId>> images(x.plan.sets.size());
     x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, desc.extent, desc.samples});
     for (auto& set : images)
-        for (uint32_t i = 0; i < x.layout.imageCount(); ++i) set.push_back(graph.createImage("light-index", desc));
+        for (uint32_t i = 0; i < x.layout.imageCount(); ++i) set.push_back(x.shared() ? sum : graph.createImage("light-index", desc));
     for (size_t r = 0; r < x.plan.rounds(); ++r) {
         for (size_t s = 0; s < images.size(); ++s) {
             const auto& rounds = x.plan.sets[s];
@@ -353,6 +379,8 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     if (layout && layout->mostIndex < lights && exact) list = true;
 
     const bool surfaces = settings.lidrCover == LidrCover::surface || (settings.lidrCover == LidrCover::automatic && !in.scene.hasBlended());
+    if (settings.lidrShare && (!surfaces || multisampled || settings.lidrTypes == LidrTypes::targets || settings.lidrTables == LidrTables::textures))
+        throw Error(ErrorKind::usage, "lidr-share: expected lidr-cover surface, no surface that blends, msaa 1, one target for all types, and lidr-tables buffers");
     Indexing x{.in = in, .layout = layout.value_or(IndexLayout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false}), .surfaces = surfaces && !(list && multisampled)};
     const auto plan = [&] {
         IndexLayout asList = x.layout;
@@ -399,7 +427,7 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     frame.stats.packing = "list";
     if (!list) {
         frame.stats.packing = fmt::format("{} {}x{}", getSetting(settings, "lidr-packing"), x.layout.overlap, x.layout.mostIndex);
-        frame.stats.imageBytes = uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) * x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
+        frame.stats.imageBytes = settings.lidrShare ? 0 : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) * x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
     }
 }
 

@@ -25,7 +25,7 @@ layout(location = 1) out float count;
 // Trebilco 2009, "Light Index Packing: Bit Shifting": a digit of the index, as the highest bits of a channel of 8.
 float digit(uint channel) {
     const uint mask = (1u << kEntryBits) - 1u;
-    return float(((index >> (channel * kEntryBits)) & mask) << (8u - kEntryBits)) / 255.0;
+    return float(((index >> (channel * kEntryBits)) & mask) << (8u - kEntryBits)) / float(kUnit);
 }
 vec4 digits(uint image) {
     const uint c = 4u * image;
@@ -48,9 +48,8 @@ void main() {
         image3 = digits(3u);
 #endif
     } else {
-        const float most = float((1u << kIndexBits) - 1u);
-        const float written = float(index) / most;
-        const float complement = float(uint(most) - index) / most;
+        const float written = float(index) / float(kUnit);
+        const float complement = float(kUnit - index) / float(kUnit);
         image0 = kKind == kPackedChannels ? vec4(written) : vec4(written, complement, written, complement);
 #if defined(TWO) || defined(FOUR)
         image1 = vec4(0);

@@ -17,6 +17,7 @@ struct IndexPacking {
     uint perPass;    // indices that the images of one pass hold; a power of two for bits and extremes
     uint passes;
     uint images;     // of one pass
+    uint unit;       // what 1 in an image stands for
 };
 
 // Sampled images and storage buffers by slot.

@@ -13,8 +13,8 @@ layout(location = 2) flat out vec4 positionRange;
 layout(location = 3) flat out vec4 directionCosOuter;
 layout(location = 4) flat out uvec2 typeVolume;
 
-layout(constant_id = 9) const uint kSurfaces = 1u;   // light_index_draw.glsl
-layout(constant_id = 10) const uint kRemapped = 0u;  // IndexPlan
+layout(constant_id = 10) const uint kSurfaces = 1u;  // light_index_draw.glsl
+layout(constant_id = 11) const uint kRemapped = 0u;  // IndexPlan
 
 // The volume of one light of a slice of the order. For the lights that reach a surface back faces are drawn, where the surface lies before
 // them: indoors few lights lie behind it, and no near plane cuts a hole. For all lights before a surface front faces are drawn

@@ -11,7 +11,8 @@ layout(constant_id = 5) const uint kEntryBits = 2u;
 layout(constant_id = 6) const uint kPerPass = 4u;
 layout(constant_id = 7) const uint kPasses = 1u;
 layout(constant_id = 8) const uint kImages = 1u;
-layout(constant_id = 9) const uint kSurfaces = 1u;   // 1: lights that reach the surface; 0: all on the way there
+layout(constant_id = 9) const uint kUnit = 255u;
+layout(constant_id = 10) const uint kSurfaces = 1u;  // 1: lights that reach the surface; 0: all on the way there
 
 layout(location = 0) flat in uint lightIndex;
 layout(location = 1) flat in uint index;  // what stands for it in the images

@@ -17,7 +17,7 @@ namespace {
 /// eight indices a second pass fills as many images again. What needs more than 16 channels, or no channel whole, is not in the table.
 std::optional<IndexLayout> bitShiftLayout(uint32_t overlap, uint32_t indexBits) {
     if (!std::has_single_bit(overlap) || overlap > 16) return std::nullopt;
-    IndexPacking packing{.kind = kPackedBits, .indexBits = indexBits, .perPass = std::min(overlap, 8u)};
+    IndexPacking packing{.kind = kPackedBits, .indexBits = indexBits, .perPass = std::min(overlap, 8u), .unit = 255};
     packing.entryBits = 8 / packing.perPass;
     packing.passes = overlap / packing.perPass;
     const uint32_t channels = indexBits / packing.entryBits;
@@ -38,7 +38,8 @@ IndexLayout channelLayout(uint32_t kind, uint32_t channels, uint32_t indexBits, 
                                .entryBits = std::max(indexBits, 8u),
                                .perPass = perPass,
                                .passes = passes,
-                               .images = (channels + 3) / 4};
+                               .images = (channels + 3) / 4,
+                               .unit = wide ? 65535u : 255u};
     return {packing, wide ? wideFormats[format] : narrowFormats[format], perPass * passes, wide ? 65535u : 255u, true};
 }
 
@@ -58,6 +59,19 @@ std::optional<IndexLayout> layoutFor(LidrPacking packing, uint32_t overlap, uint
 
 }  // namespace
 
+namespace {
+
+/// The layout in the light buffer itself: a float in [0, 1) keeps the digits of a channel, as so many 256ths.
+IndexLayout inLightBuffer(IndexLayout layout, LightBufferFormat format) {
+    if (layout.packing.kind != kPackedBits || layout.format != vk::Format::eR8G8B8A8Unorm || layout.imageCount() != 1)
+        throw Error(ErrorKind::usage, "lidr-share: expected a packing of four channels, bit-shift 8x15, 4x255 or 2x65535");
+    layout.format = format == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR16G16B16A16Sfloat;
+    layout.packing.unit = 256;
+    return layout;
+}
+
+}  // namespace
+
 IndexLayout indexLayout(const RenderSettings& settings, uint32_t lights) {
     constexpr uint32_t kBits[] = {4, 8, 16};
     const auto wanted = [&](uint32_t bits) { return settings.indices == LidrIndices::automatic || kBits[uint32_t(settings.indices) - 1] == bits; };
@@ -67,7 +81,7 @@ IndexLayout indexLayout(const RenderSettings& settings, uint32_t lights) {
         const auto layout = layoutFor(settings.lidrPacking, settings.overlap, bits);
         if (layout && (!best || best->mostIndex < lights)) best = layout;
     }
-    if (best) return *best;
+    if (best) return settings.lidrShare ? inLightBuffer(*best, settings.lightBuffer) : *best;
     std::string rows;
     for (const uint32_t bits : kBits)
         for (uint32_t overlap = 1; overlap <= 16; ++overlap)

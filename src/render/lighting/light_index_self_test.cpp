@@ -21,7 +21,7 @@ float blendShift(const shared::IndexPacking& packing) { return packing.entryBits
 uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, const IndexLayout& layout, float shift) {
     const shared::IndexPacking& packing = layout.packing;
     const gpu::Blend blend = packing.kind == shared::kPackedBits ? gpu::Blend::shift : packing.kind == shared::kPackedExtremes ? gpu::Blend::max : gpu::Blend::replace;
-    const std::vector<uint32_t> constants{packing.kind, packing.indexBits, packing.entryBits};
+    const std::vector<uint32_t> constants{packing.kind, packing.indexBits, packing.entryBits, packing.unit};
     const std::string fragment = "render/lighting/light_index_self_test.frag";
     const auto draw = [constants](frame::PassContext& pass, const std::string& shader, gpu::Blend how) {
         pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = shader, .blend = how, .constants = constants});

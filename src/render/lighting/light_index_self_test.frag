@@ -8,9 +8,9 @@
 layout(constant_id = 0) const uint kKind = 0u;  // IndexPacking
 layout(constant_id = 1) const uint kIndexBits = 8u;
 layout(constant_id = 2) const uint kEntryBits = 2u;
+layout(constant_id = 3) const uint kUnit = 255u;
 
 const uint kBits = kKind == kPackedBits ? 8u : kIndexBits;
-const uint kMost = (1u << kBits) - 1u;
 
 // What is there before and what comes. Within capacity the digits that would be shifted out are 0.
 uvec2 values() {
@@ -24,9 +24,9 @@ uvec2 values() {
 layout(location = 0) out vec4 image;
 void main() {
 #ifdef FIRST
-    image = vec4(float(values().x) / float(kMost));
+    image = vec4(float(values().x) / float(kUnit));
 #else
-    image = vec4(float(values().y) / float(kMost));
+    image = vec4(float(values().y) / float(kUnit));
 #endif
 }
 #else
@@ -34,7 +34,7 @@ layout(set = kPassSet, binding = kIndexImages) uniform sampler2D image;
 layout(set = kPassSet, binding = kPassStorage + kIndexCounters) buffer Wrong { uint wrong; };
 void main() {
     const uvec2 v = values();
-    const uint found = uint(texelFetch(image, ivec2(gl_FragCoord.xy), 0).x * float(kMost) + 0.5);
+    const uint found = uint(texelFetch(image, ivec2(gl_FragCoord.xy), 0).x * float(kUnit) + 0.5);
     const uint shifted = kEntryBits < 8u ? v.x >> kEntryBits : 0u;
     const uint expected = kKind == kPackedBits ? shifted | v.y : max(v.x, v.y);
     if (found != expected) atomicAdd(wrong, 1u);

@@ -34,12 +34,10 @@ struct PackedIndices {
 };
 
 PackedIndices packedIndices(uint set, uint pass, ivec2 pixel, int sample_) {
-    const uint bits = kKind == kPackedBits ? 8u : max(kIndexBits, 8u);
-    const float most = float((1u << bits) - 1u);
     const uint first = kKind == kPackedBits ? pass * kImages : 0u;
     PackedIndices packed;
     for (uint i = 0u; i < 4u; ++i)
-        packed.image[i] = i < kImages ? uvec4(indexTexel(set, first + i, pixel, sample_) * most + 0.5) : uvec4(0);
+        packed.image[i] = i < kImages ? uvec4(indexTexel(set, first + i, pixel, sample_) * float(kUnit) + 0.5) : uvec4(0);
     return packed;
 }
 
@@ -57,7 +55,7 @@ uint bitsEntry(PackedIndices packed, uint n) {
 // text reads the second one out of the blue channel, where by its own rendering steps the second pair begins).
 uint extremesEntry(uvec2 extremes, uint n) {
     if (n == 0u || extremes.x == 0u) return extremes.x;
-    const uint smallest = (1u << max(kIndexBits, 8u)) - 1u - extremes.y;
+    const uint smallest = kUnit - extremes.y;
     return smallest == extremes.x ? 0u : smallest;
 }
 

@@ -8,7 +8,7 @@ layout(set = 1, binding = kIndexTables + 2) uniform sampler2D tableDirections;
 layout(set = 1, binding = kIndexTables + 3) uniform sampler2D tableKinds;
 layout(set = 1, binding = kIndexTables + 4) uniform sampler2D tableFunctions;
 layout(set = 1, binding = kPassStorage + kIndexShapes, scalar) readonly buffer Classes { uint classOfObject[]; };
-layout(constant_id = 16) const uint kRows = 1u;  // of 256 lights
+layout(constant_id = 17) const uint kRows = 1u;  // of 256 lights
 
 uint loaded(float stored) { return stored < 0.0 ? kNoIndex : uint(stored); }
 
