@@ -88,6 +88,7 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     const auto& v13 = chain.get<vk::PhysicalDeviceVulkan13Features>();
     if (!device.getFeatures().depthClamp) return "lacks the feature depthClamp";
     if (!device.getFeatures().independentBlend) return "lacks the feature independentBlend";
+    if (!device.getFeatures().fragmentStoresAndAtomics) return "lacks the feature fragmentStoresAndAtomics";
     if (!v12.scalarBlockLayout) return "lacks the feature scalarBlockLayout";
     if (!v13.dynamicRendering) return "lacks the feature dynamicRendering";
     if (!v12.separateDepthStencilLayouts) return "lacks the feature separateDepthStencilLayouts";
@@ -188,7 +189,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
                                               .independentBlend = true,
                                               .sampleRateShading = has.sampleRateShading,
                                               .depthClamp = true,
-                                              .fragmentStoresAndAtomics = has.fragmentStoresAndAtomics};
+                                              .fragmentStoresAndAtomics = true};
     vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT feedback{.pNext = &v12, .attachmentFeedbackLoopLayout = true};
     const bool feeds = hasFeedbackLoops(physical);
     const char* extension = VK_EXT_ATTACHMENT_FEEDBACK_LOOP_LAYOUT_EXTENSION_NAME;
@@ -228,7 +229,6 @@ Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMess
     memory_ = physical_.getMemoryProperties();
     limits_ = physical_.getProperties().limits;
     const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
-    fragmentStores_ = features.fragmentStoresAndAtomics;
     feedbackLoops_ = hasFeedbackLoops(physical_);
     sampleCounts_ = vk::SampleCountFlagBits::e1;
     if (features.sampleRateShading && limits_.standardSampleLocations)

@@ -26,7 +26,6 @@ public:
     const vk::raii::CommandPool& commandPool() const { return commandPool_; }
     bool labels() const { return labels_; }
     bool feedbackLoops() const { return feedbackLoops_; }  ///< a pass may sample the colour attachment that it writes
-    bool fragmentStores() const { return fragmentStores_; }  ///< fragment shaders may write to buffers
     vk::SampleCountFlags sampleCounts() const { return sampleCounts_; }  ///< of colour and depth, with shading by sample
     vk::FormatProperties formatProperties(vk::Format format) const { return physical_.getFormatProperties(format); }
     uint64_t maxBufferBytes() const { return maxBufferBytes_; }
@@ -86,7 +85,6 @@ private:
     vk::PhysicalDeviceLimits limits_;
     DeviceInfo info_;
     bool labels_ = false;
-    bool fragmentStores_ = false;
     bool feedbackLoops_ = false;
     vk::SampleCountFlags sampleCounts_;
     uint64_t maxBufferBytes_ = 0;
