@@ -16,7 +16,7 @@ function(luciole_shaders target)
         file(MAKE_DIRECTORY ${folder})
         add_custom_command(
             OUTPUT ${output}
-            COMMAND Vulkan::glslc --target-env=vulkan1.3 -O -Werror -mfmt=c -I ${PROJECT_SOURCE_DIR}/src ${definitions}
+            COMMAND Vulkan::glslc --target-env=vulkan1.3 -O -Werror -mfmt=c -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/include ${definitions}
                     -MD -MF ${output}.d -MT ${output} -o ${output} ${source}
             DEPENDS ${source}
             DEPFILE ${output}.d

@@ -34,12 +34,18 @@ void Executor::createResources() {
                 imageUsage |= infoOf(use.access).imageUsage;
                 bufferUsage |= infoOf(use.access).bufferUsage;
             }
-        if (resource.isImage())
+        if (resource.output) {
+            imageUsage |= infoOf(*resource.output).imageUsage;
+            bufferUsage |= infoOf(*resource.output).bufferUsage;
+        }
+        if (resource.importedImage)
+            images_.emplace(r, gpu::viewImage(context_, resource.name, resource.importedImage, resource.image.format));
+        else if (resource.isImage())
             images_.emplace(r, gpu::makeImage(context_, resource.name,
                                               {.format = resource.image.format, .extent = resource.image.extent, .usage = imageUsage, .samples = resource.image.samples}));
         else if (resource.imported)
             continue;
-        else if (graph_.isOutput(r))
+        else if (resource.output == Access::hostRead)
             hostBuffers_.emplace(r, gpu::MappedBuffer(context_, resource.name, resource.bufferBytes, bufferUsage, gpu::Residence::hostCached));
         else if (!resource.content.empty())
             buffers_.emplace(r, gpu::uploadBuffer(context_, resource.name, resource.content, bufferUsage));
@@ -52,6 +58,11 @@ vk::Buffer Executor::bufferHandle(uint32_t resource) const {
     if (const vk::Buffer imported = graph_.resources()[resource].imported) return imported;
     const auto host = hostBuffers_.find(resource);
     return host != hostBuffers_.end() ? host->second.handle() : *buffers_.at(resource).handle;
+}
+
+vk::Image Executor::imageHandle(uint32_t resource) const {
+    if (const vk::Image imported = graph_.resources()[resource].importedImage) return imported;
+    return *images_.at(resource).handle;
 }
 
 void Executor::createPassSets() {
@@ -86,7 +97,7 @@ void Executor::createPassSets() {
         }
 }
 
-void Executor::recordBarriers(const std::vector<Barrier>& barriers) const {
+void Executor::recordBarriers(const vk::raii::CommandBuffer& commands, const std::vector<Barrier>& barriers) const {
     std::vector<vk::ImageMemoryBarrier2> images;
     std::vector<vk::BufferMemoryBarrier2> buffers;
     for (const Barrier& barrier : barriers) {
@@ -98,7 +109,7 @@ void Executor::recordBarriers(const std::vector<Barrier>& barriers) const {
                               .dstAccessMask = barrier.dstAccess,
                               .oldLayout = barrier.oldLayout,
                               .newLayout = barrier.newLayout,
-                              .image = *images_.at(barrier.resource).handle,
+                              .image = imageHandle(barrier.resource),
                               .subresourceRange = {gpu::aspectOf(resource.image.format), 0, 1, 0, 1}});
         else
             buffers.push_back({.srcStageMask = barrier.srcStages,
@@ -109,14 +120,13 @@ void Executor::recordBarriers(const std::vector<Barrier>& barriers) const {
                                .size = VK_WHOLE_SIZE});
     }
     if (images.empty() && buffers.empty()) return;
-    commandBuffers_.front().pipelineBarrier2({.bufferMemoryBarrierCount = uint32_t(buffers.size()),
+    commands.pipelineBarrier2({.bufferMemoryBarrierCount = uint32_t(buffers.size()),
                            .pBufferMemoryBarriers = buffers.data(),
                            .imageMemoryBarrierCount = uint32_t(images.size()),
                            .pImageMemoryBarriers = images.data()});
 }
 
-void Executor::timestamp(uint32_t query) const {
-    const auto& commands = commandBuffers_.front();
+void Executor::timestamp(const vk::raii::CommandBuffer& commands, uint32_t query) const {
     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, query);
     const vk::MemoryBarrier2 everything{
         .srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
@@ -126,8 +136,7 @@ void Executor::timestamp(uint32_t query) const {
     commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &everything});
 }
 
-void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
-    const auto& commands = commandBuffers_.front();
+void Executor::recordPass(const vk::raii::CommandBuffer& commands, uint32_t index, vk::DescriptorSet frameSet) {
     const Pass& pass = graph_.passes()[compiled_.passes[index].pass];
     std::vector<vk::RenderingAttachmentInfo> colors;
     std::vector<vk::Format> colorFormats;
@@ -191,34 +200,34 @@ void Executor::recordPass(uint32_t index, vk::DescriptorSet frameSet) {
     drawCounts_.push_back(context.counts());
 }
 
-void Executor::record(vk::DescriptorSet frameSet, bool measure) {
-    const auto& commands = commandBuffers_.front();
+void Executor::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, bool measure) {
     const auto passes = uint32_t(compiled_.passes.size());
     drawCounts_.clear();
-    commands.reset();  // an exception in the last frame may have left it half recorded
-    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     if (measure) {
         commands.resetQueryPool(*queries_, 0, passes + 1);
-        timestamp(0);
+        timestamp(commands, 0);
     }
     for (uint32_t i = 0; i < passes; ++i) {
         const std::string& name = graph_.passes()[compiled_.passes[i].pass].name;
         if (context_.labels()) commands.beginDebugUtilsLabelEXT({.pLabelName = name.c_str()});
-        recordBarriers(compiled_.passes[i].barriers);
-        recordPass(i, frameSet);
+        recordBarriers(commands, compiled_.passes[i].barriers);
+        recordPass(commands, i, frameSet);
         if (context_.labels()) commands.endDebugUtilsLabelEXT();
-        if (measure) timestamp(i + 1);
+        if (measure) timestamp(commands, i + 1);
     }
-    recordBarriers(compiled_.finalBarriers);
-    commands.end();
+    recordBarriers(commands, compiled_.finalBarriers);
 }
 
 void Executor::run(vk::DescriptorSet frameSet, bool measure) {
     const bool timed = measure && context_.timestampMask() != 0;
     const auto start = std::chrono::steady_clock::now();
-    record(frameSet, timed);
+    const auto& commands = commandBuffers_.front();
+    commands.reset();  // an exception in the last frame may have left it half recorded
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    record(commands, frameSet, timed);
+    commands.end();
     recordMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    context_.submitAndWait(commandBuffers_.front());
+    context_.submitAndWait(commands);
     passMs_.clear();
     if (!timed) return;
     const auto count = uint32_t(compiled_.passes.size()) + 1;

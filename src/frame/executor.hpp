@@ -23,6 +23,9 @@ public:
     ///        that the driver overlaps or merges are wrong. Without effect on a queue that has no timestamps
     void run(vk::DescriptorSet frameSet, bool measure);
 
+    /// Records one frame for somebody else to submit, outside of any render pass. What was recorded last must have finished.
+    void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, bool measure = false);
+
     /// What the frame left in a buffer declared as an output. Host-visible.
     template <typename T>
     std::span<const T> read(BufferId buffer) const { return hostBuffers_.at(buffer.index).template read<T>(); }
@@ -31,16 +34,17 @@ public:
     double recordMs() const { return recordMs_; }  ///< what the host took to record it
     std::string dot() const;               ///< with the times of the last run, if measured
 
-    vk::Image image(ImageId id) const { return *images_.at(id.index).handle; }
+    vk::Image image(ImageId id) const { return imageHandle(id.index); }
+    vk::ImageView view(ImageId id) const { return *images_.at(id.index).view; }
     vk::Buffer buffer(BufferId id) const { return bufferHandle(id.index); }
 
 private:
     void createResources();
     void createPassSets();
-    void record(vk::DescriptorSet frameSet, bool measure);
-    void recordPass(uint32_t index, vk::DescriptorSet frameSet);
-    void recordBarriers(const std::vector<Barrier>& barriers) const;
-    void timestamp(uint32_t query) const;
+    void recordPass(const vk::raii::CommandBuffer& commands, uint32_t index, vk::DescriptorSet frameSet);
+    void recordBarriers(const vk::raii::CommandBuffer& commands, const std::vector<Barrier>& barriers) const;
+    void timestamp(const vk::raii::CommandBuffer& commands, uint32_t query) const;
+    vk::Image imageHandle(uint32_t resource) const;
     vk::Buffer bufferHandle(uint32_t resource) const;
 
     const gpu::Context& context_;

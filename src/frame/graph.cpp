@@ -74,6 +74,12 @@ uint64_t Resource::bytes() const {
     return isImage() ? uint64_t(image.extent.width) * image.extent.height * gpu::bytesPerTexel(image.format) * uint32_t(image.samples) : bufferBytes;
 }
 
+std::optional<CombinedUse> Resource::useAfter() const {
+    if (!output) return outside;
+    const AccessInfo& info = infoOf(*output);
+    return CombinedUse{.stages = info.stages, .access = info.access, .layout = isImage() ? layoutOf(*output, image.format) : vk::ImageLayout::eUndefined};
+}
+
 std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass, uint32_t resource) {
     std::optional<CombinedUse> combined;
     const Resource& target = graph.resources()[resource];
@@ -157,6 +163,16 @@ BufferId FrameGraph::importBuffer(std::string name, uint64_t bytes, vk::Buffer h
     return buffer;
 }
 
+ImageId FrameGraph::importImage(std::string name, ImageDesc desc, vk::Image handle, vk::ImageLayout layout) {
+    const ImageId image = createImage(std::move(name), desc);
+    resources_[image.index].importedImage = handle;
+    resources_[image.index].outside = CombinedUse{.stages = vk::PipelineStageFlagBits2::eAllCommands,
+                                                  .access = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                                  .layout = layout,
+                                                  .writes = true};
+    return image;
+}
+
 BufferId FrameGraph::createConstantBuffer(std::string name, std::span<const uint32_t> values) {
     const BufferId buffer = createBuffer(std::move(name), values.size_bytes());
     const auto bytes = std::as_bytes(values);
@@ -170,14 +186,21 @@ PassBuilder FrameGraph::addPass(std::string name) {
     return PassBuilder(*this, uint32_t(passes_.size() - 1));
 }
 
-void FrameGraph::output(BufferId buffer) { outputs_.push_back(buffer.index); }
+void FrameGraph::output(BufferId buffer, Access access) { markOutput(buffer.index, access); }
+void FrameGraph::output(ImageId image, Access access) { markOutput(image.index, access); }
 
-bool FrameGraph::isOutput(uint32_t resource) const { return std::ranges::find(outputs_, resource) != outputs_.end(); }
+void FrameGraph::markOutput(uint32_t resource, Access access) {
+    Resource& target = resources_.at(resource);
+    const AccessInfo& info = infoOf(access);
+    const bool fits = access == Access::hostRead ? !target.isImage() : target.isImage() ? bool(info.imageUsage) : bool(info.bufferUsage);
+    if (info.writes || !fits) throw std::logic_error(fmt::format("frame graph: {}: {} of an output", target.name, info.name));
+    target.output = access;
+}
 
 CompiledGraph FrameGraph::compile() const {
     CompiledGraph compiled{.used = std::vector<bool>(resources_.size())};
-    std::vector<bool> wanted(resources_.size());
-    for (const uint32_t output : outputs_) wanted[output] = true;
+    std::vector<bool> wanted;
+    for (const Resource& resource : resources_) wanted.push_back(resource.useAfter().has_value());
     const std::vector<bool> matters = passesThatMatter(*this, wanted);
     for (uint32_t i = 0; i < passes_.size(); ++i)
         if (matters[i]) compiled.passes.push_back({i, {}});
@@ -186,24 +209,22 @@ CompiledGraph FrameGraph::compile() const {
     for (uint32_t resource = 0; resource < resources_.size(); ++resource) {
         const auto epochs = epochsOf(*this, compiled.passes, resource);
         // What the last frame did is over: frames wait for their fence. So the first access waits for nothing.
-        CombinedUse previous{.stages = vk::PipelineStageFlagBits2::eNone};
+        CombinedUse previous = resources_[resource].outside.value_or(CombinedUse{.stages = vk::PipelineStageFlagBits2::eNone});
         for (const Epoch& epoch : epochs) {
             compiled.used[resource] = true;
             CompiledPass& pass = compiled.passes[epoch.firstPass];
             const bool first = &epoch == &epochs.front();
-            if (first && !epoch.use.overwrites && resources_[resource].content.empty())
+            if (first && !epoch.use.overwrites && resources_[resource].content.empty() && !resources_[resource].outside)
                 misuse(passes_[pass.pass], resources_[resource], "used before anything was written to it");
             if (!first || resources_[resource].isImage())
                 pass.barriers.push_back({resource, previous.stages, epoch.use.stages, writesOf(previous.access), epoch.use.access,
                                          epoch.use.overwrites ? vk::ImageLayout::eUndefined : previous.layout, epoch.use.layout});
             previous = epoch.use;
         }
-        if (isOutput(resource)) {
-            if (epochs.empty())
-                throw std::logic_error(fmt::format("frame graph: {}: an output that no pass writes", resources_[resource].name));
-            const AccessInfo& host = infoOf(Access::hostRead);
-            compiled.finalBarriers.push_back({resource, previous.stages, host.stages, writesOf(previous.access), host.access});
-        }
+        if (const auto after = resources_[resource].useAfter(); after && compiled.used[resource])
+            compiled.finalBarriers.push_back({resource, previous.stages, after->stages, writesOf(previous.access), after->access, previous.layout, after->layout});
+        else if (resources_[resource].output)
+            throw std::logic_error(fmt::format("frame graph: {}: an output that no pass writes", resources_[resource].name));
     }
     if (const auto hazards = findHazards(*this, compiled); !hazards.empty())
         throw std::logic_error("frame graph: " + hazards.front());

@@ -27,16 +27,29 @@ struct ImageDesc {
     vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
 };
 
-/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer. `imported`: somebody else's buffer. `content`: what a
-/// buffer holds from the start.
+/// The uses of one resource in one pass, or by whoever is outside of the frame, as one.
+struct CombinedUse {
+    vk::PipelineStageFlags2 stages;
+    vk::AccessFlags2 access;
+    vk::ImageLayout layout = vk::ImageLayout::eUndefined;
+    bool writes = false;
+    bool overwrites = false;  ///< what was there before does not matter
+};
+
+/// An image or a buffer of the frame; `bufferBytes` != 0 tells a buffer. `imported`, `importedImage`: somebody else's. `content`: what
+/// a buffer holds from the start.
 struct Resource {
     std::string name;
     ImageDesc image;
     uint64_t bufferBytes = 0;
     vk::Buffer imported = {};
+    vk::Image importedImage = {};
     std::vector<std::byte> content = {};
+    std::optional<CombinedUse> outside = {};  ///< of an imported image: what its owner does with it before the frame and after it
+    std::optional<Access> output = {};        ///< what becomes of it after the frame
     bool isImage() const { return bufferBytes == 0; }
     uint64_t bytes() const;
+    std::optional<CombinedUse> useAfter() const;  ///< after the frame, if there is any
 };
 
 inline constexpr uint32_t kNoBinding = ~0u;
@@ -108,12 +121,18 @@ public:
     BufferId createBuffer(std::string name, uint64_t bytes);
     /// A buffer that the frame fills and that outlives it, such as one that the frame's set names.
     BufferId importBuffer(std::string name, uint64_t bytes, vk::Buffer handle);
+    /// An image that somebody else owns and has filled, with one level and one layer. Its owner may do with it whatever he likes in
+    /// the same queue, before the frame and after it: the frame waits for him and he for the frame.
+    /// \param layout in which the frame finds it and leaves it
+    ImageId importImage(std::string name, ImageDesc desc, vk::Image handle, vk::ImageLayout layout);
     /// A buffer that holds `values` when the first frame begins, and that no pass may change.
     BufferId createConstantBuffer(std::string name, std::span<const uint32_t> values);
     PassBuilder addPass(std::string name);
 
-    /// Marks a result that the host reads after the frame; passes that lead to no result are dropped.
-    void output(BufferId buffer);
+    /// Marks a result that is read after the frame, by the host or by commands that follow in the same queue; passes that lead to no
+    /// result are dropped.
+    void output(BufferId buffer, Access access = Access::hostRead);
+    void output(ImageId image, Access access);
 
     /// Drops, orders and synchronises.
     /// \throws std::logic_error naming the pass and the resource: read before anything wrote it, one pass using a
@@ -123,23 +142,14 @@ public:
 
     const std::vector<Pass>& passes() const { return passes_; }
     const std::vector<Resource>& resources() const { return resources_; }
-    bool isOutput(uint32_t resource) const;
 
 private:
     friend class PassBuilder;
+    void markOutput(uint32_t resource, Access access);
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
-    std::vector<uint32_t> outputs_;
 };
 
-/// The uses of one resource in one pass, as one.
-struct CombinedUse {
-    vk::PipelineStageFlags2 stages;
-    vk::AccessFlags2 access;
-    vk::ImageLayout layout = vk::ImageLayout::eUndefined;
-    bool writes = false;
-    bool overwrites = false;  ///< what was there before does not matter
-};
 std::optional<CombinedUse> combinedUse(const FrameGraph& graph, const Pass& pass, uint32_t resource);
 
 /// The compiled frame in Graphviz's language. \param passNotes per compiled pass, may be empty: text under its name

@@ -34,7 +34,11 @@ bool waitsFor(const Barrier& barrier, const Past& earlier) {
 /// Follows one resource through the frame.
 class Tracker {
 public:
-    Tracker(const Resource& resource, std::vector<std::string>& hazards) : resource_(resource), hazards_(hazards) {}
+    Tracker(const Resource& resource, std::vector<std::string>& hazards) : resource_(resource), hazards_(hazards) {
+        if (!resource.outside) return;
+        layout_ = resource.outside->layout;
+        use(*resource.outside, "outside");
+    }
 
     void barrier(const Barrier& barrier, const std::string& before) {
         if (resource_.isImage()) transition(barrier, before);
@@ -108,9 +112,10 @@ std::vector<std::string> findHazards(const FrameGraph& graph, const CompiledGrap
             if (const auto use = combinedUse(graph, pass, r)) tracker.use(*use, pass.name);
         }
         for (const Barrier& barrier : compiled.finalBarriers)
-            if (barrier.resource == r) tracker.barrier(barrier, "host");
-        const AccessInfo& host = infoOf(Access::hostRead);
-        if (graph.isOutput(r)) tracker.use({.stages = host.stages, .access = host.access}, "host");
+            if (barrier.resource == r) tracker.barrier(barrier, "outside");
+        const Resource& resource = graph.resources()[r];
+        if (const auto after = resource.useAfter(); after && compiled.used[r])
+            tracker.use(*after, resource.output == Access::hostRead ? "host" : "outside");
     }
     return hazards;
 }

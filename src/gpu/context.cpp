@@ -1,6 +1,7 @@
 #include "gpu/context.hpp"
 
 #include <luciole/error.hpp>
+#include <luciole/light_indexer.hpp>
 
 #include <fmt/format.h>
 
@@ -178,18 +179,22 @@ bool hasFeedbackLoops(const vk::raii::PhysicalDevice& physical) {
         .attachmentFeedbackLoopLayout;
 }
 
+/// A loader that finds its functions where the host of a foreign device does.
+vk::raii::Context loaderOf(const HostDevice& host) {
+    vk::raii::Context loader = makeLoader();
+    // vk::raii (1.3.239) looks for a libvulkan of its own and has no other constructor; what it found is not called before this.
+    const_cast<vk::raii::ContextDispatcher*>(loader.getDispatcher())->vkGetInstanceProcAddr = host.getInstanceProcAddr;
+    return loader;
+}
+
 vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily) {
     const float priority = 1;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = queueFamily, .queueCount = 1, .pQueuePriorities = &priority};
-    vk::PhysicalDeviceVulkan13Features v13{
-        .shaderTerminateInvocation = true, .synchronization2 = true, .dynamicRendering = true, .maintenance4 = true};
-    vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13, .scalarBlockLayout = true, .separateDepthStencilLayouts = true};
+    vk::PhysicalDeviceVulkan13Features v13;
+    vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13};
     const vk::PhysicalDeviceFeatures has = physical.getFeatures();
-    const vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32,
-                                              .independentBlend = true,
-                                              .sampleRateShading = has.sampleRateShading,
-                                              .depthClamp = true,
-                                              .fragmentStoresAndAtomics = true};
+    vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32, .sampleRateShading = has.sampleRateShading};
+    enableFeatures(features, v12, v13);
     vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT feedback{.pNext = &v12, .attachmentFeedbackLoopLayout = true};
     const bool feeds = hasFeedbackLoops(physical);
     const char* extension = VK_EXT_ATTACHMENT_FEEDBACK_LOOP_LAYOUT_EXTENSION_NAME;
@@ -203,6 +208,12 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
 }
 
 }  // namespace
+
+void enableFeatures(VkPhysicalDeviceFeatures& v10, VkPhysicalDeviceVulkan12Features& v12, VkPhysicalDeviceVulkan13Features& v13) {
+    v10.independentBlend = v10.depthClamp = v10.fragmentStoresAndAtomics = true;
+    v12.scalarBlockLayout = v12.separateDepthStencilLayouts = true;
+    v13.shaderTerminateInvocation = v13.synchronization2 = v13.dynamicRendering = v13.maintenance4 = true;
+}
 
 Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMessage_(options.onMessage) {
     try {
@@ -223,13 +234,40 @@ Context::Context(const RendererOptions& options) : loader_(makeLoader()), onMess
     physical_ = pick(instance_, options.device, info_);
     const uint32_t queueFamily = *graphicsQueueFamily(physical_);
     device_ = makeDevice(physical_, queueFamily);
-    queue_ = device_.getQueue(queueFamily, 0);
+    useQueue(device_.getQueue(queueFamily, 0), queueFamily);
+}
+
+Context::Context(const HostDevice& host) : Context(loaderOf(host)) {
+    borrowed_ = true;
+    instance_ = vk::raii::Instance(loader_, host.instance);
+    labels_ = instance_.getDispatcher()->vkCreateDebugUtilsMessengerEXT != nullptr;
+    physical_ = vk::raii::PhysicalDevice(instance_, host.physicalDevice);
+    info_ = describe(physical_);
+    const auto families = physical_.getQueueFamilyProperties();
+    const auto wanted = vk::QueueFlagBits::eGraphics | vk::QueueFlagBits::eCompute;
+    if (info_.usable && (host.queueFamily >= families.size() || (families[host.queueFamily].queueFlags & wanted) != wanted))
+        info_.whyUnusable = fmt::format("queue family {}: expected graphics and compute", host.queueFamily);
+    if (!info_.whyUnusable.empty())
+        throw Error(ErrorKind::device, fmt::format("device: expected a usable Vulkan 1.3 device, found {} ({}): {}", info_.name, info_.driver, info_.whyUnusable));
+    device_ = vk::raii::Device(physical_, host.device);
+    useQueue(vk::raii::Queue(device_, host.queue), host.queueFamily);
+}
+
+Context::~Context() {
+    if (!borrowed_) return;
+    commandPool_ = nullptr;  // while the device is still known
+    (void)device_.release();
+    (void)instance_.release();
+}
+
+void Context::useQueue(vk::raii::Queue queue, uint32_t queueFamily) {
+    queue_ = std::move(queue);
     commandPool_ = vk::raii::CommandPool(
         device_, {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = queueFamily});
     memory_ = physical_.getMemoryProperties();
     limits_ = physical_.getProperties().limits;
     const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
-    feedbackLoops_ = hasFeedbackLoops(physical_);
+    feedbackLoops_ = !borrowed_ && hasFeedbackLoops(physical_);  // no host is asked to enable the extension
     sampleCounts_ = vk::SampleCountFlagBits::e1;
     if (features.sampleRateShading && limits_.standardSampleLocations)
         sampleCounts_ |= limits_.framebufferColorSampleCounts & limits_.framebufferDepthSampleCounts &

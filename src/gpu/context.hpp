@@ -9,13 +9,23 @@
 
 #include "gpu/vulkan.hpp"
 
+namespace luciole {
+struct HostDevice;
+}
+
 namespace luciole::gpu {
+
+/// Sets the features without which no pass runs, in what a device is made from.
+void enableFeatures(VkPhysicalDeviceFeatures& v10, VkPhysicalDeviceVulkan12Features& v12, VkPhysicalDeviceVulkan13Features& v13);
 
 /// Instance, device and its one queue, plus an account of the device memory in use. Comes up without a window.
 class Context {
 public:
     /// \throws Error(device) naming each device and why it can't be used
     explicit Context(const RendererOptions& options);
+    /// Works on somebody else's device, which lives on. \throws Error(device) naming what it lacks
+    explicit Context(const HostDevice& host);
+    ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
@@ -73,7 +83,11 @@ public:
     void submitAndWait(const vk::raii::CommandBuffer& commands) const;
 
 private:
+    explicit Context(vk::raii::Context loader) : loader_(std::move(loader)) {}
+    void useQueue(vk::raii::Queue queue, uint32_t family);
+
     vk::raii::Context loader_;
+    bool borrowed_ = false;  // instance and device are somebody else's
     vk::raii::Instance instance_ = nullptr;
     std::function<void(std::string_view)> onMessage_;  // outlives the messenger that calls it
     vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;

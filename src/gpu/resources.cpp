@@ -20,6 +20,18 @@ vk::MemoryPropertyFlags propertiesOf(const Context& context, const vk::MemoryReq
     return context.hasMemory(requirements, better) ? better : visible;
 }
 
+void addViews(const Context& context, const std::string& name, Image& image, vk::Image handle) {
+    const auto viewOf = [&](vk::ImageAspectFlags aspects) {
+        return vk::raii::ImageView(context.device(), {.image = handle,
+                                                      .viewType = vk::ImageViewType::e2D,
+                                                      .format = image.format,
+                                                      .subresourceRange = {aspects, 0, image.mipLevels, 0, 1}});
+    };
+    image.view = viewOf(aspectOf(image.format));
+    if (hasStencil(image.format)) image.depthView = viewOf(vk::ImageAspectFlagBits::eDepth);
+    context.name(*image.view, name);
+}
+
 }  // namespace
 
 Buffer makeBuffer(const Context& context, const std::string& name, uint64_t bytes, vk::BufferUsageFlags usage,
@@ -92,16 +104,15 @@ Image makeImage(const Context& context, const std::string& name, const ImageRequ
         throw Error(ErrorKind::limit, fmt::format("{}: expected an image that {} can hold, got {} x {} texels, {} bytes", name,
                                                   context.info().name, request.extent.width, request.extent.height, requirements.size));
     }
-    const auto viewOf = [&](vk::ImageAspectFlags aspects) {
-        return vk::raii::ImageView(context.device(), {.image = *image.handle,
-                                                      .viewType = vk::ImageViewType::e2D,
-                                                      .format = request.format,
-                                                      .subresourceRange = {aspects, 0, request.mipLevels, 0, 1}});
-    };
-    image.view = viewOf(aspectOf(request.format));
-    if (hasStencil(request.format)) image.depthView = viewOf(vk::ImageAspectFlagBits::eDepth);
+    addViews(context, name, image, *image.handle);
     context.name(*image.handle, name);
-    context.name(*image.view, name);
+    return image;
+}
+
+Image viewImage(const Context& context, const std::string& name, vk::Image handle, vk::Format format) {
+    Image image;
+    image.format = format;
+    addViews(context, name, image, handle);
     return image;
 }
 

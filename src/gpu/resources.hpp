@@ -44,6 +44,9 @@ struct ImageRequest {
 };
 Image makeImage(const Context& context, const std::string& name, const ImageRequest& request);
 
+/// Somebody else's image of one level: views of it, and neither its handle nor its memory.
+Image viewImage(const Context& context, const std::string& name, vk::Image handle, vk::Format format);
+
 bool hasStencil(vk::Format format);
 vk::ImageAspectFlags aspectOf(vk::Format format);
 uint32_t bytesPerTexel(vk::Format format);

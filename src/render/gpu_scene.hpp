@@ -66,6 +66,7 @@ public:
     vk::Buffer volumeIndices() const { return *volumeIndices_.handle; }  ///< of the meshes of all levels of detail
     /// The lights in view space, for the frame to fill.
     vk::Buffer lightTable() const { return *lightTable_.handle; }
+    vk::ImageView functionImage() const { return *functions_.view; }
     uint64_t lightTableBytes() const { return lightTable_.bytes; }
     /// Lights [first, first + count), cut so that a draw that loops over a slice, and over the triangles of its lights' volumes,
     /// stays below kLightsPerDraw rounds.

@@ -8,6 +8,7 @@
 
 #include "frame/executor.hpp"
 #include "frame/pass_context.hpp"
+#include "gpu/errors.hpp"
 #include "gpu/shaders.hpp"
 #include "output/request.hpp"
 #include "render/geometry/gbuffer.hpp"
@@ -249,21 +250,7 @@ struct Renderer::Impl {
     std::unique_ptr<render::BuiltFrame> frame;
 };
 
-namespace {
-
-/// Runs `work`; what Vulkan throws becomes an Error.
-template <typename Work>
-auto translatingVulkanErrors(const Work& work) {
-    try {
-        return work();
-    } catch (const vk::InitializationFailedError& error) {
-        throw Error(ErrorKind::device, fmt::format("Vulkan: {}", error.what()));
-    } catch (const vk::SystemError& error) {
-        throw Error(ErrorKind::deviceLost, fmt::format("Vulkan: {}", error.what()));
-    }
-}
-
-}  // namespace
+using gpu::translatingVulkanErrors;
 
 Renderer::Renderer(const RendererOptions& options)
     : impl_(translatingVulkanErrors([&] { return std::make_unique<Impl>(options); })) {}

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 using namespace luciole::frame;
 
 namespace {
@@ -120,4 +122,35 @@ TEST_CASE("hazards: visibility to one stage and to another access do not add up"
     fixture.barrier(2) = wrongAccess;
     fixture.compiled.passes[2].barriers.push_back(wrongStage);
     CHECK(fixture.finds("read-after-write hazard on a between passes blend and sample"));
+}
+
+TEST_CASE("hazards: somebody else's image, read before he is done or left to him too early, is found") {
+    FrameGraph graph;
+    const ImageId his = graph.importImage("his", kColor, vk::Image(VkImage(1)), vk::ImageLayout::eGeneral), b = graph.createImage("b", kColor);
+    graph.addPass("sample").read(his, Access::fragmentSampled, 0).clear(b, Access::colorWrite, kClear);
+    graph.output(b, Access::fragmentSampled);
+    CompiledGraph compiled = graph.compile();
+    const auto finds = [&](const std::string& text) {
+        for (const std::string& hazard : findHazards(graph, compiled))
+            if (hazard.find(text) != std::string::npos) return true;
+        return false;
+    };
+    const auto onHis = [&](std::vector<Barrier>& barriers) { return std::ranges::find(barriers, his.index, &Barrier::resource); };
+    CHECK_FALSE(finds("his"));
+    SUBCASE("too early") {
+        onHis(compiled.passes[0].barriers)->srcStages = vk::PipelineStageFlagBits2::eNone;
+        CHECK(finds("read-after-write hazard on his between passes outside and sample"));
+    }
+    SUBCASE("left too early") {
+        onHis(compiled.finalBarriers)->srcStages = vk::PipelineStageFlagBits2::eNone;
+        CHECK(finds("write-after-read hazard on his between passes sample and outside"));
+    }
+    SUBCASE("left in another layout") {
+        onHis(compiled.finalBarriers)->newLayout = vk::ImageLayout::eShaderReadOnlyOptimal;
+        CHECK(finds("layout of his in pass outside"));
+    }
+    SUBCASE("an output left without its barrier") {
+        compiled.finalBarriers.clear();
+        CHECK(finds("read-after-write hazard on b between passes sample and outside"));
+    }
 }

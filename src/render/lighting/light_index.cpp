@@ -431,4 +431,20 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     }
 }
 
+LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {
+    Indexing x{.in = in, .layout = indexLayout(in.settings, in.scene.lightCount()), .surfaces = true, .depth = in.depth, .samples = false, .guarded = false};
+    x.plan = planIndices(in.settings, x.layout, in.scene.lights(), in.scene.volumes(), nullptr, false);
+    x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
+    x.shapes = addShapes(graph, in);
+    x.counters = graph.createBuffer("light-index.counters", shared::kCounterCount * 4);
+    addZero(graph, in.phase + "light-indexed.zero", x.counters);
+    const vk::Extent2D extent = graph.descOf(in.depth).extent;
+    x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, extent});
+    std::vector<ImageId> images;
+    for (uint32_t i = 0; i < x.layout.imageCount(); ++i) images.push_back(graph.createImage("light-index", {x.layout.format, extent}));
+    addIndexPasses(graph, x, x.plan.sets.front().front(), images);
+    addSaturated(graph, x);
+    return {x.layout, images, x.counters};
+}
+
 }  // namespace luciole::render

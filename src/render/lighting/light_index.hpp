@@ -13,6 +13,16 @@ struct LightIndexFrame {
     std::vector<uint32_t> dropped;      ///< lights of the table that found no place
 };
 
+/// Step 2 alone, for surfaces that somebody else draws and looks up the indices for: the images of a packing of one pass, which no
+/// stencil guards, and the counters.
+struct LightIndices {
+    IndexLayout layout;
+    std::vector<frame::ImageId> images;
+    frame::BufferId counters;
+};
+/// \param in of it: scene, constants, lights, depth (which has one sample) and settings
+LightIndices addLightIndices(frame::FrameGraph& graph, const LightingInputs& in);
+
 /// What the counters of the frame say. \return the next attempt, if this one did not do
 /// \throws Error(limit) if lights were lost that must not be
 std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters, const RenderSettings& settings,

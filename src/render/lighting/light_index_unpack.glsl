@@ -1,6 +1,7 @@
 // The indices of one pixel, out of the index images; variant INDEXSAMPLES: of one of its samples.
 #ifndef LUCIOLE_LIGHT_INDEX_UNPACK_GLSL
 #define LUCIOLE_LIGHT_INDEX_UNPACK_GLSL
+#include "luciole/light_index.glsl"
 #include "render/lighting/light_index.shared.h"
 
 #ifdef INDEXSAMPLES
@@ -41,16 +42,6 @@ PackedIndices packedIndices(uint set, uint pass, ivec2 pixel, int sample_) {
     return packed;
 }
 
-// Entry `n` of one pass, the newest first; 0: none. The digits lie next to each other in a channel, the newest highest.
-uint bitsEntry(PackedIndices packed, uint n) {
-    const uint shift = 8u - kEntryBits * (n + 1u);
-    const uint mask = (1u << kEntryBits) - 1u;
-    uint index = 0u;
-    for (uint channel = 0u; channel < kIndexBits / kEntryBits; ++channel)
-        index |= ((packed.image[channel >> 2u][channel & 3u] >> shift) & mask) << (channel * kEntryBits);
-    return index;
-}
-
 // The largest index and the smallest, which is none of its own if it is the same (Trebilco 2009, "Multi-pass Max Blend Equation"; the
 // text reads the second one out of the blue channel, where by its own rendering steps the second pair begins).
 uint extremesEntry(uvec2 extremes, uint n) {
@@ -61,7 +52,7 @@ uint extremesEntry(uvec2 extremes, uint n) {
 
 // Entry `n` of the pass, in [0, kPerPass). Only where entries come in the order of arrival does a 0 say that no more follow.
 uint indexEntry(PackedIndices packed, uint pass, uint n) {
-    if (kKind == kPackedBits) return bitsEntry(packed, n);
+    if (kKind == kPackedBits) return lucioleDigits(packed.image, kIndexBits, kEntryBits, n);
     if (kKind == kPackedChannels) return packed.image[n >> 2u][n & 3u];
     return extremesEntry(pass == 0u ? packed.image[0].xy : packed.image[0].zw, n);
 }

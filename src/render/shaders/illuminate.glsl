@@ -2,6 +2,7 @@
 // Formulas and units: docs/conventions.md.
 #ifndef LUCIOLE_ILLUMINATE_GLSL
 #define LUCIOLE_ILLUMINATE_GLSL
+#include "luciole/light_index.glsl"
 #include "render/shaders/frame.glsl"
 #include "render/shaders/surface.glsl"
 
@@ -12,29 +13,19 @@ bool usesEquation(uint equation) { return (kEquations & (1u << equation)) != 0u;
 
 // Linear along the function, none between functions (Calver 2003, "Linear Interpolation", the manual method: it is exact
 // where a filter unit keeps 8 bits of the weight). `t` in [0, 1] spans the function's domain.
-vec2 lookUp(uint row, float t) {
-    const float x = clamp(t, 0.0, 1.0) * float(kFunctionSamples - 1u);
-    const int i = min(int(x), int(kFunctionSamples) - 2);
-    const vec2 a = texelFetch(functions, ivec2(i, row), 0).xy;
-    const vec2 b = texelFetch(functions, ivec2(i + 1, row), 0).xy;
-    return mix(a, b, x - float(i));
-}
+vec2 lookUp(uint row, float t) { return lucioleLookUp(functions, row, t); }
 float bias(float dotProduct) { return 0.5 * dotProduct + 0.5; }
 
 // KHR_lights_punctual "Range Property", or Calver 2003 "Shaped Lights": Attenuate.
 float attenuate(LightConstants light, float dist) {
     if (dist >= light.range) return 0.0;
-    const float x = dist * light.inverseRange;
-    const float x2 = x * x;
-    const float d = max(dist, 0.01);
-    const float inverseSquare = clamp(1.0 - x2 * x2, 0.0, 1.0) / (d * d);
-    return usesLights(kUsesCurves) && light.attenuation != kNoIndex ? lookUp(light.attenuation, x).x : inverseSquare;
+    if (usesLights(kUsesCurves) && light.attenuation != kNoIndex) return lookUp(light.attenuation, dist * light.inverseRange).x;
+    return lucioleInverseSquare(dist, light.inverseRange);
 }
 
 // KHR_lights_punctual "Inner and Outer Cone Angles", or Calver 2003 "Shaped Lights": AngularAttenuate.
 float angularAttenuate(LightConstants light, float cosAngle) {
-    const float cone = clamp(cosAngle * light.coneScale + light.coneOffset, 0.0, 1.0);
-    if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return cone * cone;
+    if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return lucioleCone(cosAngle, light.coneScale, light.coneOffset);
     return cosAngle > light.cosOuter ? lookUp(light.falloff, bias(cosAngle)).x : 0.0;
 }
 
