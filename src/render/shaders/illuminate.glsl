@@ -21,18 +21,22 @@ vec2 lookUp(uint row, float t) {
 }
 float bias(float dotProduct) { return 0.5 * dotProduct + 0.5; }
 
+bool lambertian(LightConstants light) { return usesLights(kUsesLambertian) && (light.flags & kLightLambertian) != 0u; }
+
 // KHR_lights_punctual "Range Property", or Calver 2003 "Shaped Lights": Attenuate.
 float attenuate(LightConstants light, float dist) {
     if (dist >= light.range) return 0.0;
     const float x = dist * light.inverseRange;
     const float x2 = x * x;
     const float d = max(dist, 0.01);
-    const float inverseSquare = clamp(1.0 - x2 * x2, 0.0, 1.0) / (d * d);
+    const float d2 = lambertian(light) ? dist * dist + light.coneScale : d * d;
+    const float inverseSquare = clamp(1.0 - x2 * x2, 0.0, 1.0) / d2;
     return usesLights(kUsesCurves) && light.attenuation != kNoIndex ? lookUp(light.attenuation, x).x : inverseSquare;
 }
 
 // KHR_lights_punctual "Inner and Outer Cone Angles", or Calver 2003 "Shaped Lights": AngularAttenuate.
 float angularAttenuate(LightConstants light, float cosAngle) {
+    if (lambertian(light)) return max(cosAngle, 0.0);
     const float cone = clamp(cosAngle * light.coneScale + light.coneOffset, 0.0, 1.0);
     if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return cone * cone;
     return cosAngle > light.cosOuter ? lookUp(light.falloff, bias(cosAngle)).x : 0.0;
