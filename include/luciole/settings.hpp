@@ -34,6 +34,8 @@ struct RenderSettings {
     LidrTypes lidrTypes = LidrTypes::flag;
     LidrTables lidrTables = LidrTables::buffers;
     bool lidrShare = false;
+    std::string bounceLight = "none";  ///< the light whose first bounce is shown: a light's name, or its index in Scene::lights
+    uint32_t bounceGrid = 32;          ///< so many small lights a side stand in for the bounce, [1, 256]
     bool cullLights = true;
     float exposureEv = 0;  ///< added to Scene::exposureEv
     ToneMap toneMap = ToneMap::aces;

@@ -50,7 +50,8 @@ public:
     }
     void bind(const Draw& draw) { bind(prepare(draw)); }
     void bindSet(uint32_t set, vk::DescriptorSet handle) {
-        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), set, handle, nullptr);
+        const auto point = target_.extent.width != 0 ? vk::PipelineBindPoint::eGraphics : vk::PipelineBindPoint::eCompute;
+        commands.bindDescriptorSets(point, pipelines_.layout(), set, handle, nullptr);
     }
     /// Depth state; the default of a pass is no test and no write.
     void depth(vk::CompareOp compare, bool write) {

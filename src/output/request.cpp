@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <luciole/error.hpp>
 
 namespace luciole {
@@ -28,6 +29,28 @@ void checkRequest(const View& view, const std::vector<std::string>& aovs) {
         if (std::ranges::find(aovNames(), name) == aovNames().end())
             throw Error(ErrorKind::usage,
                         fmt::format("aov: expected one of {}, got \"{}\"", fmt::join(aovNames(), ", "), name));
+}
+
+std::optional<uint32_t> bouncingLight(std::span<const Light> lights, const RenderSettings& settings) {
+    const std::string& wanted = settings.bounceLight;
+    if (wanted == "none") return std::nullopt;
+    auto index = uint32_t(std::ranges::find(lights, wanted, &Light::name) - lights.begin());
+    if (index == lights.size()) {
+        const auto [end, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+        if (code != std::errc() || end != wanted.data() + wanted.size() || index >= lights.size())
+            throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none, a light's name or its index below {}, got \"{}\"",
+                                                      lights.size(), wanted));
+    }
+    const Light& light = lights[index];
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorKind::usage, fmt::format("bounce-light: expected a spot light with an outer cone angle below {} rad that no mesh "
+                                                  "bounds and that lights more than highlights, got \"{}\", {}", kWidestBounce, wanted, why));
+    };
+    if (light.type != LightType::spot) refuse(light.type == LightType::point ? "a point light" : "a directional light");
+    if (!(light.outerConeAngle < kWidestBounce)) refuse(fmt::format("which has {} rad", light.outerConeAngle));
+    if (light.volume != kNone) refuse("which a mesh bounds");
+    if (light.contribution == LightContribution::specularOnly) refuse("which lights highlights only");
+    return index;
 }
 
 }  // namespace luciole

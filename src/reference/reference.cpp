@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "output/display.hpp"
 #include "output/fingerprint.shared.h"
 #include "output/request.hpp"
+#include "reference/bounce.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/lights.hpp"
 #include "reference/parallel_rows.hpp"
@@ -66,7 +68,7 @@ void store(Image& image, uint32_t x, uint32_t y, dvec3 value) {
 /// The whole renderer: geometry phase and lighting phase of one pixel after the other.
 class Picture {
 public:
-    Picture(const Scene& scene, const View& view)
+    Picture(const Scene& scene, const View& view, const RenderSettings& settings)
         : scene_(scene),
           rays_(view),
           visibility_(scene),
@@ -74,7 +76,11 @@ public:
           surfaces_(scene, tables_),
           volumes_(volumesOf(scene)),
           lights_(lightSources(scene, tables_, volumes_)),
-          anyBlends_(std::ranges::count(scene.materials, AlphaMode::blend, &Material::alphaMode) > 0) {}
+          anyBlends_(std::ranges::count(scene.materials, AlphaMode::blend, &Material::alphaMode) > 0),
+          bounce_(bouncingLight(scene.lights, settings)) {
+        constexpr uint32_t kFiner = 4;  // a side: patches are small against what they light, and the picture does not depend on them
+        if (bounce_) patches_ = patchesOf(scene, visibility_, surfaces_, scene.lights[*bounce_], lights_[*bounce_], kFiner * settings.bounceGrid);
+    }
 
     Pixel at(uint32_t x, uint32_t y) const {
         const Ray ray = rays_.through(x, y);
@@ -133,6 +139,9 @@ private:
             const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
             pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
         }
+        if (bounce_ && lights_[*bounce_].touches(object.objectId))
+            for (const Patch& patch : patches_)
+                pixel.radiance += reflectedLight(surface, V, patch.arrivalAt(surface.P), LightContribution::diffuseOnly);
         return pixel;
     }
 
@@ -144,6 +153,8 @@ private:
     std::vector<Volume> volumes_;
     std::vector<LightSource> lights_;
     bool anyBlends_;
+    std::optional<uint32_t> bounce_;  ///< the light that bounces
+    std::vector<Patch> patches_;
 };
 
 }  // namespace
@@ -163,7 +174,7 @@ Frame renderReference(const Scene& scene, const View& view, const RenderSettings
         layers.emplace_back(&aov, &image);
     }
 
-    const Picture picture(scene, view);
+    const Picture picture(scene, view, settings);
     const auto renderRow = [&](uint32_t y) {
         for (uint32_t x = 0; x < view.extent.x; ++x) {
             const Pixel pixel = picture.at(x, y);

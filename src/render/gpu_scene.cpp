@@ -9,7 +9,9 @@
 #include <tuple>
 
 #include "gpu/bindings.shared.h"
+#include "output/request.hpp"
 #include "render/geometry/gbuffer.hpp"
+#include "render/lighting/bounce.shared.h"
 #include "render/tables.hpp"
 #include "scene/mip_chain.hpp"
 
@@ -49,6 +51,13 @@ Bounds boundsOf(const Scene& scene, const Object& object) {
     return {low - kRounding * terms, high + kRounding * terms};
 }
 
+/// What the light sees: a square around its cone (docs/conventions.md, "Bounce").
+Camera bounceCamera(const Light& light) {
+    mat4 worldFromView = lookAt(vec3(0), vec3(normalize(dvec3(light.directionWorld))));
+    worldFromView[3] = vec4(light.positionWorld, 1);
+    return {.worldFromView = worldFromView, .yFov = 2 * light.outerConeAngle, .zNear = kBounceNear};
+}
+
 vk::SamplerAddressMode addressMode(Wrap wrap) {
     switch (wrap) {
         case Wrap::mirroredRepeat: return vk::SamplerAddressMode::eMirroredRepeat;
@@ -82,7 +91,8 @@ gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, co
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
-    : context_(context), lights_(sortLights(scene)), volumes_(volumeTables(scene)), objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
+    : context_(context), sceneLights_(scene.lights), functionCount_(uint32_t(scene.functions.size())), volumes_(volumeTables(scene)),
+      objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
       exposureEv_(scene.exposureEv) {
     uploadMeshes(scene);
     uploadObjects(scene);
@@ -93,21 +103,15 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     linkTable_ = linkTable(scene, linkWords_);
     links_ = gpu::uploadBuffer(context_, "link table", linkTable_, Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
-    constexpr uint32_t kMostLights = 64 * 65535;  // a dispatch of so many, in groups of 64, is the most that every device takes
-    if (scene.lights.size() > kMostLights)
-        throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, got {}", kMostLights, scene.lights.size()));
-    sources_ = gpu::uploadBuffer(context_, "light sources", lights_.sources, Usage::eStorageBuffer);
-    // Never smaller than the uniform block that shaders may read it through.
-    const size_t uniformBytes = kUniformLights * sizeof(LightConstants);
-    lightTable_ = gpu::makeBuffer(context_, "light table", std::max(lightCount() * sizeof(LightConstants), uniformBytes),
-                                  Usage::eStorageBuffer | Usage::eUniformBuffer);
+    bounceView_ = gpu::MappedBuffer(context_, "bounce view", sizeof(ViewConstants), Usage::eUniformBuffer);
+    uploadLights({});
     volumeTable_ = gpu::uploadBuffer(context_, "light volumes", volumes_.volumes, Usage::eStorageBuffer);
     volumeVertices_ = gpu::uploadBuffer(context_, "light volume vertices", volumes_.vertices, Usage::eStorageBuffer);
     volumeIndices_ = gpu::uploadBuffer(context_, "light volume indices", render::volumeIndices(), Usage::eIndexBuffer);
-    createFrameSet(pipelines);
-    lightFeatures_ = render::lightFeatures(scene.lights);
-    if (lightCount() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange)
-        lightFeatures_ |= kUsesUniformLights;
+    const auto frameSets = gpu::allocateSets(context_, pool_, pipelines.frameSetLayout(), 2);
+    frameSet_ = frameSets[0];
+    bounceSet_ = frameSets[1];
+    writeFrameSets();
     for (const Material& material : scene.materials) equations_ |= 1u << uint32_t(material.equation);
     triangles_ = triangleCount(scene);
 }
@@ -205,10 +209,10 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 1},
-                                            {vk::DescriptorType::eStorageBuffer, kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1},
-                                            {vk::DescriptorType::eUniformBuffer, 2}};
-    pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 1,
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1)},
+                                            {vk::DescriptorType::eUniformBuffer, 4}};
+    pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
                                                          .pPoolSizes = sizes});
     if (count == 0) return;
@@ -246,8 +250,51 @@ void GpuScene::uploadFunctions(const Scene& scene) {
                                   {kFunctionSamples, uint32_t(table.size() / kFunctionSamples)}, std::span(&level, 1));
 }
 
-void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
-    frameSet_ = gpu::allocateSets(context_, pool_, pipelines.frameSetLayout(), 1).front();
+void GpuScene::uploadLights(std::optional<Bounce> bounce) {
+    constexpr uint32_t kMostLights = 64 * 65535;  // a dispatch of so many, in groups of 64, is the most that every device takes
+    const uint32_t placed = bounce ? bounce->grid * bounce->grid : 0;
+    if (sceneLights_.size() + placed > kMostLights)
+        throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, got {}", kMostLights, sceneLights_.size() + placed));
+    SortedLights lights = sortLights(sceneLights_, functionCount_);
+    uint32_t features = render::lightFeatures(sceneLights_);
+    if (bounce) {
+        bounce->light = uint32_t(std::ranges::find(lights.sources, bounce->sceneIndex, &LightConstants::sceneIndex) - lights.sources.begin());
+        bounce->first = addPlacedLights(lights, lights.sources[bounce->light], uint32_t(sceneLights_.size()), placed);
+        features |= kUsesLocal | kUsesSpot | kUsesContributions | kUsesLambertian;
+    }
+    // Never smaller than the uniform block that shaders may read it through.
+    const size_t uniformBytes = kUniformLights * sizeof(LightConstants);
+    if (lights.sources.size() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange) features |= kUsesUniformLights;
+    gpu::Buffer sources = gpu::uploadBuffer(context_, "light sources", lights.sources, Usage::eStorageBuffer);
+    lightTable_ = gpu::makeBuffer(context_, "light table", std::max(lights.sources.size() * sizeof(LightConstants), uniformBytes),
+                                  Usage::eStorageBuffer | Usage::eUniformBuffer);
+    sources_ = std::move(sources);
+    lights_ = std::move(lights);
+    lightFeatures_ = features;
+    bounce_ = std::move(bounce);
+}
+
+bool GpuScene::setBounce(const RenderSettings& settings) {
+    const std::optional<uint32_t> wanted = bouncingLight(sceneLights_, settings);
+    if (wanted ? bounce_ && bounce_->sceneIndex == *wanted && bounce_->grid == settings.bounceGrid : !bounce_) return false;
+    std::optional<Bounce> bounce;
+    if (wanted) bounce = {.sceneIndex = *wanted, .grid = settings.bounceGrid, .camera = bounceCamera(sceneLights_[*wanted])};
+    uploadLights(bounce);
+    writeFrameSets();
+    if (!bounce_) return true;
+    ViewConstants seen = render::viewConstants({bounce_->camera, uvec2(bounce_->grid)}, ambience_);
+    seen.lightCount = lightCount();
+    seen.linkWords = linkWords_;
+    bounceView_.write(std::span<const ViewConstants>(&seen, 1));
+    return true;
+}
+
+void GpuScene::writeFrameSets() {
+    writeFrameSet(frameSet_, view_.handle());
+    writeFrameSet(bounceSet_, bounceView_.handle());
+}
+
+void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
     struct Binding {
         uint32_t slot;
         vk::Buffer buffer;
@@ -256,7 +303,7 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
     };
     const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
     const auto uniformLightBytes = std::min<vk::DeviceSize>(kUniformLights * sizeof(LightConstants), context_.limits().maxUniformBufferRange);
-    const Binding bindings[] = {{kFrameView, view_.handle(), uniform, VK_WHOLE_SIZE},
+    const Binding bindings[] = {{kFrameView, view, uniform, VK_WHOLE_SIZE},
                                 {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameSurfaces, *surfaces_.handle, storage, VK_WHOLE_SIZE},
@@ -268,7 +315,7 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
                                 {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
-        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = frameSet_,
+        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                                       .dstBinding = binding.slot,
                                                                       .descriptorCount = 1,
                                                                       .descriptorType = binding.type,
@@ -279,7 +326,7 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
                                         .imageView = *functions_.view,
                                         .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
     context_.device().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = frameSet_,
+        vk::WriteDescriptorSet{.dstSet = set,
                                .dstBinding = kFrameFunctions,
                                .descriptorCount = 1,
                                .descriptorType = vk::DescriptorType::eCombinedImageSampler,
@@ -289,6 +336,7 @@ void GpuScene::createFrameSet(const gpu::Pipelines& pipelines) {
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
     viewConstants_ = render::viewConstants(view, ambience_);
+    worldFromView_ = dmat4(view.camera.worldFromView);
     viewConstants_.lightCount = lightCount();
     viewConstants_.linkWords = linkWords_;
     viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <luciole/renderer.hpp>
@@ -43,14 +44,30 @@ struct SurfaceShading {
     shared::LightSlice slice = {};  ///< pushed to the shader
 };
 
+/// The light whose bounce is shown, as the camera that it is, and where the lights that stand in for the bounce lie in the table.
+struct Bounce {
+    uint32_t sceneIndex;  ///< in Scene::lights
+    uint32_t grid;
+    Camera camera;
+    uint32_t light = 0;  ///< its place in the light table
+    uint32_t first = 0;  ///< placed lights are [first, first + grid * grid)
+};
+
 /// A scene on the device: vertices, textures, and the tables that shaders read (types.shared.h).
 class GpuScene {
 public:
     GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene);
 
+    /// Makes room for the lights of the bounce that the settings ask for, if they aren't those of the last call. \return whether so
+    /// \throws Error(usage) for a light that can't bounce, Error(limit) for more lights than a table holds
+    bool setBounce(const RenderSettings& settings);
+    const std::optional<Bounce>& bounce() const { return bounce_; }
+    vk::DescriptorSet bounceSet() const { return bounceSet_; }  ///< as frameSet, but seen from the light that bounces
+
     /// Writes what depends on the view, whatever the number of lights.
     void setView(const View& view, const RenderSettings& settings, GBufferLayout layout);
     const shared::ViewConstants& view() const { return viewConstants_; }
+    mat4 viewFrom(const Camera& camera) const { return mat4(inverse(worldFromView_) * dmat4(camera.worldFromView)); }
 
     vk::DescriptorSet frameSet() const { return frameSet_; }
 
@@ -108,7 +125,9 @@ private:
     vk::Sampler samplerOf(const Sampler& wanted);
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
     void uploadFunctions(const Scene& scene);
-    void createFrameSet(const gpu::Pipelines& pipelines);
+    void uploadLights(std::optional<Bounce> bounce);
+    void writeFrameSets();
+    void writeFrameSet(vk::DescriptorSet set, vk::Buffer view);
     void bindMeshes(frame::PassContext& pass) const;
     void bindMaterial(frame::PassContext& pass, uint32_t material, const SurfaceShading& shading) const;
 
@@ -117,7 +136,7 @@ private:
     std::vector<MeshRange> meshes_;
     gpu::Buffer objects_, materials_, surfaces_, links_;
     gpu::Buffer sources_, lightTable_, volumeTable_, volumeVertices_, volumeIndices_;
-    gpu::MappedBuffer view_;
+    gpu::MappedBuffer view_, bounceView_;
     gpu::Image functions_;
     std::vector<Batch> batches_;
     std::vector<OpaqueObject> opaque_;
@@ -128,11 +147,15 @@ private:
     gpu::Image white_;
     std::vector<std::pair<Sampler, vk::raii::Sampler>> samplers_;
     vk::raii::DescriptorPool pool_ = nullptr;
-    vk::DescriptorSet frameSet_;
+    vk::DescriptorSet frameSet_, bounceSet_;
+    std::vector<Light> sceneLights_;
+    uint32_t functionCount_ = 0;
     SortedLights lights_;
+    std::optional<Bounce> bounce_;
     VolumeTables volumes_;
     ObjectClasses objectClasses_;
     shared::ViewConstants viewConstants_{};
+    dmat4 worldFromView_{1};
     Ambience ambience_;
     float exposureEv_ = 0;
     uint32_t equations_ = 0;

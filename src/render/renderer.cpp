@@ -144,6 +144,10 @@ void checkSettings(const gpu::Context& context, const RenderSettings& settings) 
     if (settings.lidrShare && !context.feedbackLoops())
         throw Error(ErrorKind::usage, fmt::format("lidr-share: expected off, as {} can't sample the colour attachment that a pass writes "
                                                   "(VK_EXT_attachment_feedback_loop_layout)", context.info().name));
+    const bool sorts = settings.lighting == "light-indexed" && (settings.lidrPacking == LidrPacking::cpuSort || settings.lidrPacking == LidrPacking::maxBlendSorted);
+    if (settings.bounceLight != "none" && (technique.onHost || sorts))
+        throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none with lighting {}, where the host looks at each light: the lights "
+                                                  "of a bounce are made on the device", settings.lighting + (sorts ? " and a packing that sorts" : "")));
     if (settings.msaa == Msaa::x1) return;
     if (!technique.samples)
         throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; techniques that "
@@ -197,6 +201,7 @@ struct Renderer::Impl {
         render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
         const bool others = !std::ranges::all_of(aovs, render::isCount);
+        if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
         render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
         if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;

@@ -114,12 +114,12 @@ LightConstants lightConstants(const Light& light, uint32_t index, uint32_t funct
     return constants;
 }
 
-SortedLights sortLights(const Scene& scene) {
+SortedLights sortLights(const std::vector<Light>& lights, uint32_t functionCount) {
     SortedLights sorted;
     std::vector<LightConstants> shaped, meshes;
-    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        const LightConstants constants = lightConstants(light, i, uint32_t(scene.functions.size()));
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const Light& light = lights[i];
+        const LightConstants constants = lightConstants(light, i, functionCount);
         if (light.volume != kNone)
             meshes.push_back(constants);
         else if (light.type != LightType::directional && light.range < kBoundless)
@@ -132,6 +132,21 @@ SortedLights sortLights(const Scene& scene) {
     sorted.meshes = uint32_t(meshes.size());
     for (const auto* more : {&shaped, &meshes}) sorted.sources.insert(sorted.sources.end(), more->begin(), more->end());
     return sorted;
+}
+
+uint32_t addPlacedLights(SortedLights& lights, const LightConstants& from, uint32_t firstIndex, uint32_t count) {
+    LightConstants placed{};
+    placed.type = kLightSpot;
+    placed.flags = kLightDiffuse | kLightLambertian;
+    placed.direction = vec3(0, 0, -1);
+    placed.attenuation = placed.falloff = placed.volume = kNoIndex;
+    placed.linkGroup = from.linkGroup;
+    std::vector<LightConstants> all(count, placed);
+    for (uint32_t i = 0; i < count; ++i) all[i].sceneIndex = firstIndex + i;
+    const uint32_t first = lights.unbounded + lights.shaped;
+    lights.sources.insert(lights.sources.begin() + first, all.begin(), all.end());
+    lights.shaped += count;
+    return first;
 }
 
 VolumeTables volumeTables(const Scene& scene) {

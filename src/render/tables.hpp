@@ -25,7 +25,13 @@ struct SortedLights {
     uint32_t shaped = 0;     ///< then so many that a ball or its sector encloses
     uint32_t meshes = 0;     ///< then those that a mesh bounds
 };
-SortedLights sortLights(const Scene& scene);
+/// \param functionCount of the scene (see functionTable)
+SortedLights sortLights(const std::vector<Light>& lights, uint32_t functionCount);
+
+/// Adds `count` lights that the device places (docs/techniques/bounce.md) to the end of the shaped ones. Until it has, they reach nothing.
+/// \param from the light whose links they have; \param firstIndex their scene index: those of the scene's own lights come before
+/// \return the place of the first
+uint32_t addPlacedLights(SortedLights& lights, const shared::LightConstants& from, uint32_t firstIndex, uint32_t count);
 
 struct VolumeTables {
     std::vector<shared::VolumeConstants> volumes;

@@ -14,6 +14,7 @@ std::vector<std::string> validValues(const Setting& setting) {
     if (setting.type == "choice") return setting.choices;
     if (setting.type == "switch") return {"on", "off"};
     if (setting.type == "number") return {"-64", "-1.25", "0", "64"};
+    if (setting.type == "whole") return {std::to_string(int(setting.low)), std::to_string(int(setting.high))};
     return {"clustered"};
 }
 
@@ -76,6 +77,7 @@ TEST_CASE("settings: a value outside a row's range is refused by name, and chang
     for (const Setting& setting : settingsTable()) {
         for (const char* value : {"", "nan", "inf", "1e99", "65", "-65", "1x", "+-1", "AGX", "yes", " on"}) {
             if (setting.type == "name" && *value) continue;
+            if (setting.type == "whole" && setting.high >= 65 && std::string_view(value) == "65") continue;
             RenderSettings settings;
             const std::string message = usageError([&] { setSetting(settings, setting.name, value); });
             CHECK(message.starts_with(std::string(setting.name) + ": expected "));

@@ -13,12 +13,12 @@ std::array<vk::Format, 4> targetFormats(GBufferLayout layout) {
     }
 }
 
-GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil) {
+GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil, const std::string& prefix) {
     const auto formats = targetFormats(layout);
     GBuffer gbuffer;
     for (size_t i = 0; i < formats.size(); ++i)
-        gbuffer.targets[i] = graph.createImage(std::string("gbuffer.") + "abcd"[i], {formats[i], extent});
-    gbuffer.depth = graph.createImage("depth", {stencil ? vk::Format::eD32SfloatS8Uint : vk::Format::eD32Sfloat, extent});
+        gbuffer.targets[i] = graph.createImage(prefix + "gbuffer." + "abcd"[i], {formats[i], extent});
+    gbuffer.depth = graph.createImage(prefix + "depth", {stencil ? vk::Format::eD32SfloatS8Uint : vk::Format::eD32Sfloat, extent});
     return gbuffer;
 }
 

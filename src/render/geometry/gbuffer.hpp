@@ -16,7 +16,8 @@ struct GBuffer {
 std::array<vk::Format, 4> targetFormats(GBufferLayout layout);
 
 /// \param stencil whether the depth buffer has one; the geometry phase leaves it at 0
-GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil);
+/// \param prefix of the images' names
+GBuffer createGBuffer(frame::FrameGraph& graph, GBufferLayout layout, vk::Extent2D extent, bool stencil, const std::string& prefix = "");
 
 /// Declares that a pass reads the G-buffer (bindings of gbuffer_read.glsl) and tests against its depth.
 /// \param depth depthTest, or stencilWrite for a pass that marks the stencil as well

@@ -206,7 +206,7 @@ void addTables(FrameGraph& graph, Indexing& x) {
     const LightingInputs& in = x.in;
     const uint32_t rows = tableRows(x);
     const auto classes = (in.constants[kConstantLights] & kUsesLinks) != 0 ? uint32_t(in.scene.objectClasses().objectOfClass.size()) : 1;
-    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kCountsLights)) != 0;
+    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kUsesLambertian | kCountsLights)) != 0;
     const auto image = [&](const char* name, uint32_t blocks) {
         return graph.createImage(name, {vk::Format::eR32G32B32A32Sfloat, {256, rows * blocks}});
     };

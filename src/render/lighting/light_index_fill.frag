@@ -7,11 +7,11 @@ layout(set = 1, binding = kPassStorage + kIndexCounts, scalar) buffer Counts { u
 layout(set = 1, binding = kPassStorage + kIndexOffsets, scalar) readonly buffer Offsets { uint offsets[]; };
 layout(set = 1, binding = kPassStorage + kIndexEntries, scalar) buffer Entries { uint entries[]; };
 
-// Puts each light that hits the pixel into the pixel's list, in any order.
+// Puts each light that hits the pixel into the pixel's list, from its begin on as they come.
 void main() {
     const uvec2 at = uvec2(gl_FragCoord.xy);
     const uint pixel = at.y * uint(view.extent.x) + at.x;
     if (!hits()) return;
-    const uint place = offsets[pixel] + atomicAdd(counts[pixel], 0xffffffffu) - 1u;
+    const uint place = offsets[pixel + 1u] - atomicAdd(counts[pixel], 0xffffffffu);
     if (place < uint(entries.length())) entries[place] = lightIndex;  // the host sees how many there are, and makes room
 }

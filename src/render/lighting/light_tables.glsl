@@ -26,7 +26,7 @@ LightConstants indexedLight(uint index) {
     light.type = kLightPoint;
     light.flags = kLightDiffuse | kLightSpecular;
     light.attenuation = light.falloff = light.linkGroup = light.volume = kNoIndex;
-    if (usesLights(kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kCountsLights)) {
+    if (usesLights(kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kUsesLambertian | kCountsLights)) {
         const vec4 direction = texelFetch(tableDirections, texel, 0);
         const vec4 kind = texelFetch(tableKinds, texel, 0);
         light.direction = direction.xyz;

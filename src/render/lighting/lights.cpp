@@ -11,6 +11,7 @@ frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene)
         .record([groups = (scene.lightCount() + 63) / 64](frame::PassContext& pass) {
             if (groups > 0) pass.dispatch("render/lighting/lights.comp", {}, groups);
         });
+    if (scene.bounce()) addBounce(graph, scene, lights);
     return lights;
 }
 

@@ -53,6 +53,7 @@ struct LightingTechnique {
     bool forward = false;  ///< colours surfaces while it draws them: no G-buffer
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
     bool samples = forward;  ///< takes any number of samples a pixel
+    bool onHost = false;  ///< the host looks at each light, so that none can be made on the device
 };
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
@@ -64,8 +65,12 @@ std::string yardstickOf(const LightingTechnique& technique);
 /// \throws Error(usage) listing the names
 const LightingTechnique& techniqueNamed(const std::string& name);
 
-/// The pass that takes the lights into view space. \return what LightingInputs calls `lights`
+/// The pass that takes the lights into view space, and, if there is a bounce, those that place its lights. \return what LightingInputs
+/// calls `lights`
 frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene);
+
+/// The passes that place the lights of the scene's bounce (docs/techniques/bounce.md) in the table of lights in view space.
+void addBounce(frame::FrameGraph& graph, const GpuScene& scene, frame::BufferId lights);
 
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.
 void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId radiance);

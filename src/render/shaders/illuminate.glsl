@@ -16,15 +16,21 @@ bool usesEquation(uint equation) { return (kEquations & (1u << equation)) != 0u;
 vec2 lookUp(uint row, float t) { return lucioleLookUp(functions, row, t); }
 float bias(float dotProduct) { return 0.5 * dotProduct + 0.5; }
 
+bool lambertian(LightConstants light) { return usesLights(kUsesLambertian) && (light.flags & kLightLambertian) != 0u; }
+
 // KHR_lights_punctual "Range Property", or Calver 2003 "Shaped Lights": Attenuate.
 float attenuate(LightConstants light, float dist) {
     if (dist >= light.range) return 0.0;
-    if (usesLights(kUsesCurves) && light.attenuation != kNoIndex) return lookUp(light.attenuation, dist * light.inverseRange).x;
-    return lucioleInverseSquare(dist, light.inverseRange);
+    const float x = dist * light.inverseRange;
+    if (usesLights(kUsesCurves) && light.attenuation != kNoIndex) return lookUp(light.attenuation, x).x;
+    if (!lambertian(light)) return lucioleInverseSquare(dist, light.inverseRange);
+    const float x2 = x * x;
+    return clamp(1.0 - x2 * x2, 0.0, 1.0) / (dist * dist + light.coneScale);
 }
 
 // KHR_lights_punctual "Inner and Outer Cone Angles", or Calver 2003 "Shaped Lights": AngularAttenuate.
 float angularAttenuate(LightConstants light, float cosAngle) {
+    if (lambertian(light)) return max(cosAngle, 0.0);
     if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return lucioleCone(cosAngle, light.coneScale, light.coneOffset);
     return cosAngle > light.cosOuter ? lookUp(light.falloff, bias(cosAngle)).x : 0.0;
 }

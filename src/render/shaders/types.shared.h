@@ -89,6 +89,7 @@ const uint kLightSpot = 2u;
 const uint kLightDiffuse = 1u;         // flags
 const uint kLightSpecular = 2u;
 const uint kLightInfiniteViewer = 4u;
+const uint kLightLambertian = 8u;      // a patch of a surface that shines: docs/conventions.md, "Bounce"
 
 struct LightConstants {
     vec3 position;
@@ -96,7 +97,7 @@ struct LightConstants {
     vec3 direction;     // where it shines to
     float inverseRange; // 0 where the light has no range
     vec3 color;         // lux or candela
-    float coneScale;    // glTF's cone: clamp(cos * coneScale + coneOffset)^2
+    float coneScale;    // glTF's cone: clamp(cos * coneScale + coneOffset)^2; of a Lambertian patch: s^2
     float coneOffset;
     float cosOuter;
     uint type;
@@ -141,6 +142,7 @@ const uint kUsesUniformLights = 64u; // all lights fit into a uniform buffer, th
 const uint kUniformLights = 780u;    // of 84 bytes in 64 KiB
 const uint kUsesVolumes = 128u;      // a light that is bounded by a mesh, and nothing else has seen to that
 const uint kCountsLights = 256u;     // passes add up what they evaluate instead of light (contribution.glsl)
+const uint kUsesLambertian = 512u;
 
 SHARED_END
 #endif
