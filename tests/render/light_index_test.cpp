@@ -5,8 +5,8 @@
 #include <random>
 
 #include "device.hpp"
-#include "image_difference.hpp"
 #include "gpu/shaders.hpp"
+#include "image_difference.hpp"
 #include "render/lighting/light_index_self_test.hpp"
 #include "scene_building.hpp"
 #include "scenes.hpp"
@@ -25,13 +25,18 @@ struct Row {
 };
 
 RenderSettings settingsOf(const Row& row, OnOverflow onOverflow = OnOverflow::exact) {
-    return {.lighting = "light-indexed", .lidrPacking = row.packing, .overlap = row.overlap, .indices = row.indices, .onOverflow = onOverflow};
+    return {.lighting = "light-indexed",
+            .lidrPacking = row.packing,
+            .overlap = row.overlap,
+            .indices = row.indices,
+            .onOverflow = onOverflow};
 }
 
 /// The thirteen rows of Table 2.9.1.
 const std::vector<Row> kTable = [] {
     std::vector<Row> rows;
-    for (const auto& [indices, overlaps] : {std::pair(LidrIndices::n15, std::vector{2u, 4u, 8u, 16u}), std::pair(LidrIndices::n255, std::vector{1u, 2u, 4u, 8u, 16u}),
+    for (const auto& [indices, overlaps] : {std::pair(LidrIndices::n15, std::vector{2u, 4u, 8u, 16u}),
+                                            std::pair(LidrIndices::n255, std::vector{1u, 2u, 4u, 8u, 16u}),
                                             std::pair(LidrIndices::n65535, std::vector{1u, 2u, 4u, 8u})})
         for (const uint32_t overlap : overlaps) rows.push_back({LidrPacking::bitShift, overlap, indices});
     return rows;
@@ -41,16 +46,19 @@ const std::vector<Row> kTable = [] {
 std::vector<Row> allRows() {
     std::vector<Row> rows = kTable;
     for (const uint32_t overlap : {2u, 4u})
-        for (const auto indices : {LidrIndices::n255, LidrIndices::n65535}) rows.push_back({LidrPacking::maxBlend, overlap, indices});
+        for (const auto indices : {LidrIndices::n255, LidrIndices::n65535})
+            rows.push_back({LidrPacking::maxBlend, overlap, indices});
     rows.push_back({LidrPacking::maxBlendSorted, 4, LidrIndices::n255});
-    for (uint32_t overlap = 1; overlap <= 16; ++overlap) rows.push_back({LidrPacking::cpuSort, overlap, overlap % 3 ? LidrIndices::n255 : LidrIndices::n65535});
+    for (uint32_t overlap = 1; overlap <= 16; ++overlap)
+        rows.push_back({LidrPacking::cpuSort, overlap, overlap % 3 ? LidrIndices::n255 : LidrIndices::n65535});
     rows.push_back({LidrPacking::list, 4, LidrIndices::automatic});
     return rows;
 }
 
 std::string nameOf(const Row& row) {
     const RenderSettings settings = settingsOf(row);
-    return getSetting(settings, "lidr-packing") + " " + std::to_string(row.overlap) + "x" + getSetting(settings, "indices");
+    return getSetting(settings, "lidr-packing") + " " + std::to_string(row.overlap) + "x" +
+           getSetting(settings, "indices");
 }
 
 /// Lights that hit each pixel, whatever they are linked to: as brute force counts them.
@@ -67,7 +75,8 @@ TEST_CASE("light-indexed: every packing at every capacity equals the loop over a
     const auto scenes = testScenes();
     REQUIRE(scenes.size() >= 8);
     for (const TestScene& test : scenes) {
-        if (test.name == "texture corners" || test.name == "builtin:materials") continue;  // many pipelines, no other lights
+        if (test.name == "texture corners" || test.name == "builtin:materials")
+            continue;  // many pipelines, no other lights
         renderer->setScene(test.scene);
         const View view{test.view.camera, {96, 72}};
         const Frame yardstick = renderer->render(view, {.lighting = "forward-loop"}, kCounts);
@@ -75,7 +84,8 @@ TEST_CASE("light-indexed: every packing at every capacity equals the loop over a
             INFO("scene " << test.name << ", " << nameOf(row));
             const Frame frame = renderer->render(view, settingsOf(row), kCounts);
             // Sums of n positive terms in any order differ by at most 2 n units of roundoff (2^-24).
-            CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+            CHECK(difference(frame.radiance, yardstick.radiance).max <=
+                  2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
             CHECK(frame.aovs.at("useful-evaluations").data == yardstick.aovs.at("useful-evaluations").data);
             CHECK(frame.aovs.at("light-fingerprint").data == yardstick.aovs.at("light-fingerprint").data);
         }
@@ -107,7 +117,8 @@ TEST_CASE("light-indexed: pixels over capacity are exactly those reported, and a
             const LightIndexStats& stats = *frame.stats.lightIndex;
             CHECK(stats.pixelsOver == pixels);
             CHECK(stats.pairsOver == pairs);
-            CHECK(difference(frame.radiance, yardstick.radiance, &within).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+            CHECK(difference(frame.radiance, yardstick.radiance, &within).max <=
+                  2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
             if (pixels > 0) {
                 ++saturated;
                 CHECK(difference(frame.radiance, yardstick.radiance).max > 1e-3);
@@ -150,7 +161,9 @@ std::vector<RenderSettings> variants() {
 
 }  // namespace
 
-TEST_CASE("light-indexed: tables of either kind, types of lights, covers and samples give the picture of the loop over all lights") {
+TEST_CASE(
+    "light-indexed: tables of either kind, types of lights, covers and samples give the picture of the loop over all "
+    "lights") {
     ValidatedRenderer renderer;
     for (const TestScene& test : testScenes()) {
         if (test.name == "texture corners" || test.name == "builtin:materials") continue;
@@ -160,11 +173,13 @@ TEST_CASE("light-indexed: tables of either kind, types of lights, covers and sam
             const Frame yardstick = renderer->render(view, {.lighting = "forward-loop", .msaa = msaa}, kCounts);
             for (RenderSettings settings : variants()) {
                 settings.msaa = msaa;
-                INFO("scene " << test.name << ", msaa " << getSetting(settings, "msaa") << ", " << getSetting(settings, "lidr-packing") << " x" << settings.overlap
-                              << ", tables " << getSetting(settings, "lidr-tables") << ", types " << getSetting(settings, "lidr-types") << ", cover "
-                              << getSetting(settings, "lidr-cover"));
+                INFO("scene " << test.name << ", msaa " << getSetting(settings, "msaa") << ", "
+                              << getSetting(settings, "lidr-packing") << " x" << settings.overlap << ", tables "
+                              << getSetting(settings, "lidr-tables") << ", types " << getSetting(settings, "lidr-types")
+                              << ", cover " << getSetting(settings, "lidr-cover"));
                 const Frame frame = renderer->render(view, settings, kCounts);
-                CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+                CHECK(difference(frame.radiance, yardstick.radiance).max <=
+                      2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
                 CHECK(frame.aovs.at("useful-evaluations").data == yardstick.aovs.at("useful-evaluations").data);
                 CHECK(frame.aovs.at("light-fingerprint").data == yardstick.aovs.at("light-fingerprint").data);
             }
@@ -172,7 +187,8 @@ TEST_CASE("light-indexed: tables of either kind, types of lights, covers and sam
     }
 }
 
-TEST_CASE("light-indexed: every value passes every target of every packing, and a factor that is a little off is found out") {
+TEST_CASE(
+    "light-indexed: every value passes every target of every packing, and a factor that is a little off is found out") {
     SilentValidation validation;
     const gpu::Context context(validation.options());
     gpu::Pipelines pipelines(context, gpu::shaderCode);
@@ -182,19 +198,24 @@ TEST_CASE("light-indexed: every value passes every target of every packing, and 
         const render::IndexLayout layout = render::indexLayout(settingsOf(row), 1);
         const float shift = render::blendShift(layout.packing);
         CHECK(render::wrongValues(context, pipelines, layout, shift) == 0);
-        if (layout.packing.kind == shared::kPackedBits && shift > 0) CHECK(render::wrongValues(context, pipelines, layout, shift * 1.04f) > 0);
+        if (layout.packing.kind == shared::kPackedBits && shift > 0)
+            CHECK(render::wrongValues(context, pipelines, layout, shift * 1.04f) > 0);
     }
 }
 
-TEST_CASE("light-indexed: the outcome of a self-test is kept for the next start, and a damaged file is as good as none") {
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("luciole-self-test-" + std::to_string(std::random_device{}()));
+TEST_CASE(
+    "light-indexed: the outcome of a self-test is kept for the next start, and a damaged file is as good as none") {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("luciole-self-test-" + std::to_string(std::random_device{}()));
     SilentValidation validation;
     const gpu::Context context(validation.options());
     gpu::Pipelines pipelines(context, gpu::shaderCode);
-    const render::IndexLayout layout = render::indexLayout(settingsOf({LidrPacking::bitShift, 4, LidrIndices::n255}), 1);
+    const render::IndexLayout layout =
+        render::indexLayout(settingsOf({LidrPacking::bitShift, 4, LidrIndices::n255}), 1);
     CHECK(render::LightIndexSelfTest(context, pipelines, folder.string()).of(layout).ms > 0);
     CHECK(render::LightIndexSelfTest(context, pipelines, folder.string()).of(layout).ms == 0);
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) std::ofstream(entry.path()) << "bits\t\n\t\nbits 2 R8G8B8A8Unorm\tnone\n";
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        std::ofstream(entry.path()) << "bits\t\n\t\nbits 2 R8G8B8A8Unorm\tnone\n";
     render::LightIndexSelfTest again(context, pipelines, folder.string());
     CHECK(again.of(layout).ms > 0);
     CHECK(again.of(layout).wrong == 0);
@@ -212,20 +233,24 @@ TEST_CASE("light-indexed: the light buffer serves as index image, and what it ca
             RenderSettings settings = settingsOf({LidrPacking::bitShift, overlap, indices});
             settings.lidrShare = true;
             const Frame frame = renderer->render(view, settings);
-            CHECK(difference(frame.radiance, yardstick.radiance).max <= 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
+            CHECK(difference(frame.radiance, yardstick.radiance).max <=
+                  2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24));
             settings.onOverflow = OnOverflow::priority;
             CHECK(renderer->render(view, settings).stats.lightIndex->imageBytes == 0);
         }
         RenderSettings eight = settingsOf({LidrPacking::bitShift, 8, LidrIndices::n255});
         eight.lidrShare = true;
-        CHECK_THROWS_WITH_AS(renderer->render(view, eight), doctest::Contains("lidr-share: expected a packing of four channels"), Error);
+        CHECK_THROWS_WITH_AS(renderer->render(view, eight),
+                             doctest::Contains("lidr-share: expected a packing of four channels"), Error);
     }
     SilentValidation validation;
     const gpu::Context context(validation.options());
     gpu::Pipelines pipelines(context, gpu::shaderCode);
     for (const auto format : {LightBufferFormat::rgba32f, LightBufferFormat::rgba16f})
-        for (const auto& [overlap, indices] : {std::pair(8u, LidrIndices::n15), std::pair(4u, LidrIndices::n255), std::pair(2u, LidrIndices::n65535)}) {
-            const render::IndexLayout layout = render::indexLayout({.lightBuffer = format, .overlap = overlap, .indices = indices, .lidrShare = true}, 1);
+        for (const auto& [overlap, indices] :
+             {std::pair(8u, LidrIndices::n15), std::pair(4u, LidrIndices::n255), std::pair(2u, LidrIndices::n65535)}) {
+            const render::IndexLayout layout = render::indexLayout(
+                {.lightBuffer = format, .overlap = overlap, .indices = indices, .lidrShare = true}, 1);
             CHECK(render::wrongValues(context, pipelines, layout, render::blendShift(layout.packing)) == 0);
         }
 }
@@ -235,9 +260,11 @@ TEST_CASE("light-indexed: an overlap that no packing has is refused with those t
     renderer->setScene(studio().scene);
     const View view{studio().view.camera, {8, 8}};
     CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf({LidrPacking::bitShift, 3, LidrIndices::n255})),
-                         "lidr-packing: expected an overlap and indices out of 2x15 4x15 8x15 16x15 1x255 2x255 4x255 8x255 16x255 1x65535 2x65535 4x65535 8x65535, got 3x255",
+                         "lidr-packing: expected an overlap and indices out of 2x15 4x15 8x15 16x15 1x255 2x255 4x255 "
+                         "8x255 16x255 1x65535 2x65535 4x65535 8x65535, got 3x255",
                          Error);
-    CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf({LidrPacking::maxBlend, 3, LidrIndices::automatic})), doctest::Contains("2x255 4x255"), Error);
+    CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf({LidrPacking::maxBlend, 3, LidrIndices::automatic})),
+                         doctest::Contains("2x255 4x255"), Error);
 }
 
 TEST_CASE("light-indexed: bytes of index images and light tables are what the table of the text says") {
@@ -254,7 +281,8 @@ TEST_CASE("light-indexed: bytes of index images and light tables are what the ta
         settings.lidrTables = LidrTables::textures;
         const LightIndexStats stats = *renderer->render({frontCamera(), {20, 10}}, settings).stats.lightIndex;
         CHECK(stats.imageBytes == 200 * kBytes[i]);
-        CHECK(stats.tableBytes == 2 * 256 * 16);  // positions with 1 / range, colours; the text has 8 bits of colour and so 5 KiB
+        CHECK(stats.tableBytes ==
+              2 * 256 * 16);  // positions with 1 / range, colours; the text has 8 bits of colour and so 5 KiB
     }
 }
 
@@ -271,13 +299,16 @@ TEST_CASE("light-indexed: lists come out alike every time, and grow as they need
     for (int i = 0; i < 3; ++i) CHECK(renderer->render(view, settings).radiance.data == first.radiance.data);
 }
 
-TEST_CASE("light-indexed: where there are more lights than indices, the important ones are kept and the others are reported") {
+TEST_CASE(
+    "light-indexed: where there are more lights than indices, the important ones are kept and the others are "
+    "reported") {
     ValidatedRenderer renderer;
     Scene scene;
     addObject(scene, quad(1), lambertMaterial(scene));
     for (int i = 0; i < 20; ++i) scene.lights.push_back(pointLight(vec3(0, 0, 1), vec3(1 + float(i)), 4));
     renderer->setScene(scene);
-    const Frame frame = renderer->render({frontCamera(), {16, 16}}, settingsOf({LidrPacking::bitShift, 16, LidrIndices::n15}, OnOverflow::priority));
+    const Frame frame = renderer->render(
+        {frontCamera(), {16, 16}}, settingsOf({LidrPacking::bitShift, 16, LidrIndices::n15}, OnOverflow::priority));
     const LightIndexStats& stats = *frame.stats.lightIndex;
     REQUIRE(stats.lost.size() == 5);
     uint64_t covered = 0;

@@ -7,13 +7,14 @@ namespace luciole::render {
 using frame::Access;
 using frame::PassContext;
 
-ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const std::string& name, Surfaces which,
-                           bool first) {
+ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum,
+                           const std::string& name, Surfaces which, bool first) {
     const bool replaces = which == Surfaces::opaque && !in.counting();
     const frame::ImageId target = replaces && !first ? graph.createImage("radiance.more", graph.descOf(sum)) : sum;
     auto pass = graph.addPass(in.phase + name);
     pass.read(in.lights, Access::tableRead).read(in.depth, Access::depthTest);
-    if (graph.descOf(in.depth).samples != vk::SampleCountFlagBits::e1) pass.read(in.depth, Access::fragmentSampled, shared::kForwardDepth);
+    if (graph.descOf(in.depth).samples != vk::SampleCountFlagBits::e1)
+        pass.read(in.depth, Access::fragmentSampled, shared::kForwardDepth);
     if (in.counting())
         pass.update(in.counts, Access::fragmentStorageWrite, shared::kForwardCounts);
     else if (replaces)
@@ -25,14 +26,19 @@ ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, f
 
 void addToSum(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId target, frame::ImageId sum) {
     if (target.index == sum.index) return;
-    const std::string fragment = std::string("render/lighting/forward_add.frag") + (in.settings.msaa != Msaa::x1 ? "+MULTISAMPLED" : "");
-    graph.addPass(in.phase + "add").read(target, Access::fragmentSampled, 0).update(sum, Access::colorBlend).record([fragment](PassContext& pass) {
-        pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .blend = gpu::Blend::add});
-        pass.drawFullScreen();
-    });
+    const std::string fragment =
+        std::string("render/lighting/forward_add.frag") + (in.settings.msaa != Msaa::x1 ? "+MULTISAMPLED" : "");
+    graph.addPass(in.phase + "add")
+        .read(target, Access::fragmentSampled, 0)
+        .update(sum, Access::colorBlend)
+        .record([fragment](PassContext& pass) {
+            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .blend = gpu::Blend::add});
+            pass.drawFullScreen();
+        });
 }
 
-SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Surfaces which, bool first, std::vector<uint32_t> own) {
+SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Surfaces which, bool first,
+                              std::vector<uint32_t> own) {
     if (in.settings.msaa != Msaa::x1) fragment += "+MULTISAMPLED";
     if (in.counting()) fragment += "+COUNTING";
     const bool blended = which == Surfaces::blended;
@@ -40,7 +46,9 @@ SurfaceShading forwardShading(const LightingInputs& in, std::string fragment, Su
     return {.fragment = std::move(fragment),
             .frame = in.constants,
             .own = std::move(own),
-            .blend = which == Surfaces::opaque ? gpu::Blend::replace : blended && first ? gpu::Blend::over : gpu::Blend::add,
+            .blend = which == Surfaces::opaque ? gpu::Blend::replace
+                     : blended && first        ? gpu::Blend::over
+                                               : gpu::Blend::add,
             .oneEquation = true};
 }
 
@@ -65,7 +73,8 @@ std::vector<SurfaceShading> loops(const LightingInputs& in, Surfaces which) {
 
 }  // namespace
 
-// One pass over the surfaces, every light at every fragment. Surfaces that do not fit one draw's loop are drawn once more.
+// One pass over the surfaces, every light at every fragment. Surfaces that do not fit one draw's loop are drawn once
+// more.
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum) {
     bool first = true;
     for (const SurfaceShading& shading : loops(in, Surfaces::opaque)) {

@@ -19,17 +19,18 @@ using frame::PassContext;
 
 namespace {
 
-constexpr shared::IndexPacking kNoPacking{.kind = shared::kPackedBits, .indexBits = 8, .entryBits = 8, .perPass = 1, .passes = 1, .images = 1, .unit = 255};
+constexpr shared::IndexPacking kNoPacking{
+    .kind = shared::kPackedBits, .indexBits = 8, .entryBits = 8, .perPass = 1, .passes = 1, .images = 1, .unit = 255};
 
 /// What all passes of a frame have in common.
 struct Indexing {
     const LightingInputs& in;
     IndexLayout layout;
     IndexPlan plan;
-    bool surfaces;  ///< lights that reach the surface, not all before it
-    ImageId depth;  ///< that decides
-    bool samples;   ///< an index for each sample
-    bool guarded;   ///< the stencil counts a pixel's lights, so that those beyond the overlap change nothing
+    bool surfaces;         ///< lights that reach the surface, not all before it
+    ImageId depth;         ///< that decides
+    bool samples;          ///< an index for each sample
+    bool guarded;          ///< the stencil counts a pixel's lights, so that those beyond the overlap change nothing
     ImageId numbers = {};  ///< else, unless sorted: of each pixel's lights, 255 and more as 255
     bool counted() const { return !guarded && !layout.sorted; }
     /// Trebilco 2009, "Buffer Sharing": the light buffer is the index image.
@@ -41,7 +42,8 @@ struct Indexing {
     std::vector<uint32_t> drawConstants() const {
         const shared::IndexPacking& p = layout.packing;
         std::vector<uint32_t> constants = in.constants;
-        constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, uint32_t(surfaces), uint32_t(plan.remapped)});
+        constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit,
+                                           uint32_t(surfaces), uint32_t(plan.remapped)});
         return constants;
     }
 };
@@ -60,7 +62,8 @@ void drawLights(PassContext& pass, const GpuScene& scene, shared::LightSlice sli
     pass.commands.bindIndexBuffer(scene.volumeIndices(), 0, vk::IndexType::eUint32);
     setFaces(pass, !surfaces);
     pass.push(slice);
-    pass.drawIndexed(shared::volumeIndexCount(shared::kIndexLod), slice.count, shared::volumeFirstIndex(shared::kIndexLod), 0, 0);
+    pass.drawIndexed(shared::volumeIndexCount(shared::kIndexLod), slice.count,
+                     shared::volumeFirstIndex(shared::kIndexLod), 0, 0);
 }
 
 BufferId addShapes(FrameGraph& graph, const LightingInputs& in) {
@@ -83,12 +86,14 @@ void addZero(FrameGraph& graph, const std::string& name, BufferId buffer) {
 
 /// The farthest of each pixel's samples, for lights before any of them (Trebilco 2009, "MSAA Technique 2").
 ImageId addFarthestDepth(FrameGraph& graph, const LightingInputs& in) {
-    const ImageId farthest = graph.createImage("depth.farthest", {graph.descOf(in.depth).format, graph.descOf(in.depth).extent});
+    const ImageId farthest =
+        graph.createImage("depth.farthest", {graph.descOf(in.depth).format, graph.descOf(in.depth).extent});
     graph.addPass(in.phase + "light-indexed.farthest-depth")
         .read(in.depth, Access::fragmentSampled, shared::kIndexDepth)
         .clear(farthest, Access::depthWrite, vk::ClearDepthStencilValue{0.0f, 0})
         .record([](PassContext& pass) {
-            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/lighting/light_index_farthest.frag"});
+            pass.bind(
+                {.vertex = "render/shaders/full_screen.vert", .fragment = "render/lighting/light_index_farthest.frag"});
             pass.depth(vk::CompareOp::eAlways, true);
             pass.drawFullScreen();
         });
@@ -103,13 +108,17 @@ void guard(PassContext& pass, uint32_t first, uint32_t count) {
     pass.commands.setStencilTestEnable(true);
     pass.commands.setStencilReference(faces, first);
     pass.commands.setStencilCompareMask(faces, 0xff & ~(count - 1));
-    pass.stencil(faces, {.compare = vk::CompareOp::eEqual, .fail = vk::StencilOp::eIncrementAndClamp, .pass = vk::StencilOp::eIncrementAndClamp});
+    pass.stencil(faces, {.compare = vk::CompareOp::eEqual,
+                         .fail = vk::StencilOp::eIncrementAndClamp,
+                         .pass = vk::StencilOp::eIncrementAndClamp});
 }
 
 /// Step 2 (Trebilco 2009): light volumes write light indices. Fills `images` with one round of the plan.
 void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& round, const std::vector<ImageId>& images) {
     const shared::IndexPacking& packing = x.layout.packing;
-    const gpu::Blend blend = packing.kind == shared::kPackedBits ? gpu::Blend::shift : packing.kind == shared::kPackedExtremes ? gpu::Blend::max : gpu::Blend::replace;
+    const gpu::Blend blend = packing.kind == shared::kPackedBits       ? gpu::Blend::shift
+                             : packing.kind == shared::kPackedExtremes ? gpu::Blend::max
+                                                                       : gpu::Blend::replace;
     std::vector<bool> cleared(images.size());
     // Draws into the same images are one pass.
     for (size_t begin = 0, end = 0; begin < round.size() || begin == 0; begin = end) {
@@ -132,7 +141,8 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
         if (first.images > 1) fragment += first.images > 2 ? "+FOUR" : "+TWO";
         if (x.counted()) fragment += "+COUNTED";
         if (x.samples) fragment += "+MULTISAMPLED";
-        pass.record([&scene = x.in.scene, draws, fragment, blend, packing, guarded = x.guarded, counted = x.counted(), surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+        pass.record([&scene = x.in.scene, draws, fragment, blend, packing, guarded = x.guarded, counted = x.counted(),
+                     surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
             // Moves what is there down by the digits of one index.
             const float shift = blendShift(packing);
             context.commands.setBlendConstants(std::array{shift, shift, shift, shift}.data());
@@ -152,12 +162,14 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
     }
     for (uint32_t i = 0; i < images.size(); ++i)
         if (!cleared[i])
-            graph.addPass(x.in.phase + "light-indexed.clear").clear(images[i], Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+            graph.addPass(x.in.phase + "light-indexed.clear")
+                .clear(images[i], Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
 }
 
 /// Declares the index images as those of one set.
 void readImages(frame::PassBuilder& pass, const std::vector<ImageId>& images, uint32_t slot) {
-    for (uint32_t i = 0; i < 4; ++i) pass.read(images[std::min<size_t>(i, images.size() - 1)], Access::fragmentSampled, slot + i);
+    for (uint32_t i = 0; i < 4; ++i)
+        pass.read(images[std::min<size_t>(i, images.size() - 1)], Access::fragmentSampled, slot + i);
 }
 
 /// Counts the pixels that are hit by more lights than fit.
@@ -166,8 +178,10 @@ void addSaturated(FrameGraph& graph, const Indexing& x) {
     if (x.counted()) fragment += "+COUNTED";
     if (x.samples) fragment += "+MULTISAMPLED";
     auto pass = graph.addPass(x.in.phase + "light-indexed.saturated");
-    if (x.counted()) pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages).read(x.depth, Access::depthTest);
-    else pass.update(x.depth, Access::stencilWrite);
+    if (x.counted())
+        pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages).read(x.depth, Access::depthTest);
+    else
+        pass.update(x.depth, Access::stencilWrite);
     pass.update(x.counters, Access::fragmentStorageWrite, shared::kIndexCounters)
         .record([fragment, overlap = x.layout.overlap, stencil = x.guarded](PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment});
@@ -180,20 +194,27 @@ void addSaturated(FrameGraph& graph, const Indexing& x) {
 }
 
 /// Finds out which lights the images lack, and where.
-void addLost(FrameGraph& graph, const Indexing& x, const std::vector<ImageId>& images, std::vector<shared::LightSlice> slices) {
+void addLost(FrameGraph& graph, const Indexing& x, const std::vector<ImageId>& images,
+             std::vector<shared::LightSlice> slices) {
     const vk::Extent2D extent = graph.descOf(x.depth).extent;
-    const BufferId seen = graph.createBuffer("light-index.seen", uint64_t(extent.width) * extent.height * (x.samples ? 4 : 1) * 4);
+    const BufferId seen =
+        graph.createBuffer("light-index.seen", uint64_t(extent.width) * extent.height * (x.samples ? 4 : 1) * 4);
     addZero(graph, x.in.phase + "light-indexed.zero", seen);
     auto pass = graph.addPass(x.in.phase + "light-indexed.lost");
     readByLights(pass, x);
     readImages(pass, images, shared::kIndexImages);
     readImages(pass, images, shared::kIndexMoreImages);
-    const std::string fragment = std::string("render/lighting/light_index_lost.frag") + (x.samples ? "+INDEXSAMPLES+MULTISAMPLED" : "");
+    const std::string fragment =
+        std::string("render/lighting/light_index_lost.frag") + (x.samples ? "+INDEXSAMPLES+MULTISAMPLED" : "");
     pass.read(x.depth, Access::depthTest)
         .update(x.counters, Access::fragmentStorageWrite, shared::kIndexCounters)
         .update(seen, Access::fragmentStorageWrite, shared::kIndexOffsets)
-        .record([&scene = x.in.scene, fragment, slices, surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
-            context.bind({.vertex = "render/lighting/light_index.vert", .fragment = fragment, .depthClamp = clampsDepth(scene), .constants = constants});
+        .record([&scene = x.in.scene, fragment, slices, surfaces = x.surfaces,
+                 constants = x.drawConstants()](PassContext& context) {
+            context.bind({.vertex = "render/lighting/light_index.vert",
+                          .fragment = fragment,
+                          .depthClamp = clampsDepth(scene),
+                          .constants = constants});
             for (const shared::LightSlice& slice : slices) drawLights(context, scene, slice, surfaces);
         });
 }
@@ -205,22 +226,30 @@ void addTables(FrameGraph& graph, Indexing& x) {
     using namespace shared;
     const LightingInputs& in = x.in;
     const uint32_t rows = tableRows(x);
-    const auto classes = (in.constants[kConstantLights] & kUsesLinks) != 0 ? uint32_t(in.scene.objectClasses().objectOfClass.size()) : 1;
-    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kUsesLambertian | kCountsLights)) != 0;
+    const auto classes =
+        (in.constants[kConstantLights] & kUsesLinks) != 0 ? uint32_t(in.scene.objectClasses().objectOfClass.size()) : 1;
+    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes |
+                                                       kUsesContributions | kUsesLambertian | kCountsLights)) != 0;
     const auto image = [&](const char* name, uint32_t blocks) {
         return graph.createImage(name, {vk::Format::eR32G32B32A32Sfloat, {256, rows * blocks}});
     };
     x.tables = {image("light-table.positions", 1), image("light-table.colors", classes)};
-    if (all) for (const char* name : {"light-table.directions", "light-table.kinds", "light-table.functions"}) x.tables.push_back(image(name, 1));
+    if (all)
+        for (const char* name : {"light-table.directions", "light-table.kinds", "light-table.functions"})
+            x.tables.push_back(image(name, 1));
     const BufferId objects = graph.createConstantBuffer("light-table.objects", in.scene.objectClasses().objectOfClass);
     std::vector<uint32_t> constants = in.constants;
     constants.insert(constants.end(), {rows, uint32_t(x.plan.remapped)});
     for (const bool colors : {false, true}) {
         auto pass = graph.addPass(in.phase + (colors ? "light-indexed.colors" : "light-indexed.tables"));
-        pass.read(in.lights, Access::tableRead).read(x.order, Access::fragmentStorageRead, kIndexOrder).read(objects, Access::fragmentStorageRead, kIndexShapes);
+        pass.read(in.lights, Access::tableRead)
+            .read(x.order, Access::fragmentStorageRead, kIndexOrder)
+            .read(objects, Access::fragmentStorageRead, kIndexShapes);
         for (uint32_t i = 0; i < x.tables.size(); ++i)
             if ((i == 1) == colors) pass.write(x.tables[i], Access::colorWrite);
-        const std::string fragment = std::string("render/lighting/light_tables.frag") + (colors ? "+COLORS" : all ? "+ALL" : "");
+        const std::string fragment = std::string("render/lighting/light_tables.frag") + (colors ? "+COLORS"
+                                                                                         : all  ? "+ALL"
+                                                                                                : "");
         pass.record([fragment, constants](PassContext& context) {
             context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .constants = constants});
             context.drawFullScreen();
@@ -231,21 +260,27 @@ void addTables(FrameGraph& graph, Indexing& x) {
 /// Specialization constants of forward_indexed.frag.
 std::vector<uint32_t> surfaceConstants(const Indexing& x, uint32_t sets) {
     const shared::IndexPacking& p = x.layout.packing;
-    return {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, sets, uint32_t(x.plan.remapped), tableRows(x)};
+    return {
+        p.kind,      p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, sets, uint32_t(x.plan.remapped),
+        tableRows(x)};
 }
 
-/// The same with the indices in `sum`: each pixel is read once, before it is written; of surfaces that coincide the first one drawn is
-/// seen, as the stencil sees to.
+/// The same with the indices in `sum`: each pixel is read once, before it is written; of surfaces that coincide the
+/// first one drawn is seen, as the stencil sees to.
 void addSharedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum) {
-    if (!x.counted()) graph.addPass(x.in.phase + "light-indexed.clear").clear(x.numbers, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
+    if (!x.counted())
+        graph.addPass(x.in.phase + "light-indexed.clear")
+            .clear(x.numbers, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     auto pass = graph.addPass(x.in.phase + "light-indexed.surfaces");
     pass.read(x.in.lights, Access::tableRead)
         .update(x.in.depth, Access::stencilWrite)
         .update(sum, Access::colorFeedback, shared::kIndexImages)
         .read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
-    for (const uint32_t slot : {1u, 2u, 3u}) pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages + slot);  // not looked at
+    for (const uint32_t slot : {1u, 2u, 3u})
+        pass.read(x.numbers, Access::fragmentSampled, shared::kIndexImages + slot);  // not looked at
     readImages(pass, {x.numbers}, shared::kIndexMoreImages);
-    SurfaceShading shading = forwardShading(x.in, "render/lighting/forward_indexed.frag", Surfaces::opaque, true, surfaceConstants(x, 1));
+    SurfaceShading shading =
+        forwardShading(x.in, "render/lighting/forward_indexed.frag", Surfaces::opaque, true, surfaceConstants(x, 1));
     shading.slice = x.plan.rest;
     pass.record([&scene = x.in.scene, shading](PassContext& context) {
         testDepth(context, Surfaces::opaque);
@@ -255,17 +290,22 @@ void addSharedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum) {
 }
 
 /// Step 3: surfaces look their lights up.
-void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images, Surfaces which, bool first) {
+void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images,
+                 Surfaces which, bool first) {
     if (x.shared()) return addSharedSurfaces(graph, x, sum);
-    auto [pass, target] = addForwardPass(graph, x.in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
+    auto [pass, target] =
+        addForwardPass(graph, x.in, sum,
+                       which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
     readImages(pass, images.front(), shared::kIndexImages);
     readImages(pass, images.back(), shared::kIndexMoreImages);
     pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
     std::string fragment = "render/lighting/forward_indexed.frag";
     if (!x.tables.empty()) {
         fragment += "+TABLES";
-        for (uint32_t i = 0; i < 5; ++i) pass.read(x.tables[i < x.tables.size() ? i : 0], Access::fragmentSampled, shared::kIndexTables + i);
-        pass.read(graph.createConstantBuffer("light-table.classes", x.in.scene.objectClasses().classOfObject), Access::fragmentStorageRead, shared::kIndexShapes);
+        for (uint32_t i = 0; i < 5; ++i)
+            pass.read(x.tables[i < x.tables.size() ? i : 0], Access::fragmentSampled, shared::kIndexTables + i);
+        pass.read(graph.createConstantBuffer("light-table.classes", x.in.scene.objectClasses().classOfObject),
+                  Access::fragmentStorageRead, shared::kIndexShapes);
     }
     if (x.samples) fragment += "+INDEXSAMPLES";
     SurfaceShading shading = forwardShading(x.in, fragment, which, first, surfaceConstants(x, uint32_t(images.size())));
@@ -283,7 +323,8 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
     std::vector<std::vector<ImageId>> images(x.plan.sets.size());
     x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, desc.extent, desc.samples});
     for (auto& set : images)
-        for (uint32_t i = 0; i < x.layout.imageCount(); ++i) set.push_back(x.shared() ? sum : graph.createImage("light-index", desc));
+        for (uint32_t i = 0; i < x.layout.imageCount(); ++i)
+            set.push_back(x.shared() ? sum : graph.createImage("light-index", desc));
     for (size_t r = 0; r < x.plan.rounds(); ++r) {
         for (size_t s = 0; s < images.size(); ++s) {
             const auto& rounds = x.plan.sets[s];
@@ -309,18 +350,27 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
     const LightingInputs& in = x.in;
     const vk::Extent2D extent = graph.descOf(x.depth).extent;
     const uint32_t pixels = extent.width * extent.height;
-    const uint32_t scanGroups = (pixels + shared::kScanGroup * shared::kScanPixels - 1) / (shared::kScanGroup * shared::kScanPixels);
-    const BufferId counts = graph.createBuffer("light-index.counts", pixels * 4ull), offsets = graph.createBuffer("light-index.offsets", (pixels + 1) * 4ull);
-    const BufferId sums = graph.createBuffer("light-index.sums", scanGroups * 4ull), entries = graph.createBuffer("light-index.entries", capacity * 4);
+    const uint32_t scanGroups =
+        (pixels + shared::kScanGroup * shared::kScanPixels - 1) / (shared::kScanGroup * shared::kScanPixels);
+    const BufferId counts = graph.createBuffer("light-index.counts", pixels * 4ull),
+                   offsets = graph.createBuffer("light-index.offsets", (pixels + 1) * 4ull);
+    const BufferId sums = graph.createBuffer("light-index.sums", scanGroups * 4ull),
+                   entries = graph.createBuffer("light-index.entries", capacity * 4);
     const auto indexed = uint32_t(x.plan.order.size()) - x.plan.rest.count;
     const std::string name = in.phase + "light-indexed.";
     const auto addRaster = [&](const std::string& what, shared::LightSlice slice) {
         auto pass = graph.addPass(name + what);
         readByLights(pass, x);
         pass.read(x.depth, Access::depthTest).update(counts, Access::fragmentStorageWrite, shared::kIndexCounts);
-        if (what == "fill") pass.read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets).write(entries, Access::fragmentStorageWrite, shared::kIndexEntries);
-        pass.record([&scene = in.scene, slice, shader = "render/lighting/light_index_" + what + ".frag", surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
-            context.bind({.vertex = "render/lighting/light_index.vert", .fragment = shader, .depthClamp = clampsDepth(scene), .constants = constants});
+        if (what == "fill")
+            pass.read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets)
+                .write(entries, Access::fragmentStorageWrite, shared::kIndexEntries);
+        pass.record([&scene = in.scene, slice, shader = "render/lighting/light_index_" + what + ".frag",
+                     surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+            context.bind({.vertex = "render/lighting/light_index.vert",
+                          .fragment = shader,
+                          .depthClamp = clampsDepth(scene),
+                          .constants = constants});
             drawLights(context, scene, slice, surfaces);
         });
     };
@@ -331,9 +381,12 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
         addRaster("count", slice);
         for (uint32_t stage = 0; stage < 3; ++stage) {
             auto pass = graph.addPass(name + std::array{"sums", "places", "offsets"}[stage]);
-            pass.read(counts, Access::computeStorageRead, shared::kIndexCounts).update(x.counters, Access::computeStorageWrite, shared::kIndexEntries);
-            stage == 0 ? pass.write(sums, Access::computeStorageWrite, 0).write(offsets, Access::computeStorageWrite, shared::kIndexOffsets)
-                       : pass.update(sums, Access::computeStorageWrite, 0).update(offsets, Access::computeStorageWrite, shared::kIndexOffsets);
+            pass.read(counts, Access::computeStorageRead, shared::kIndexCounts)
+                .update(x.counters, Access::computeStorageWrite, shared::kIndexEntries);
+            stage == 0 ? pass.write(sums, Access::computeStorageWrite, 0)
+                             .write(offsets, Access::computeStorageWrite, shared::kIndexOffsets)
+                       : pass.update(sums, Access::computeStorageWrite, 0)
+                             .update(offsets, Access::computeStorageWrite, shared::kIndexOffsets);
             std::vector<uint32_t> constants = in.constants;
             constants.insert(constants.end(), {stage, x.layout.overlap});
             pass.record([constants, groups = stage == 1 ? 1 : scanGroups](PassContext& context) {
@@ -348,7 +401,9 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
                 context.dispatch("render/lighting/light_index_sort.comp", constants, groups);
             });
         const auto addListed = [&](Surfaces which) {
-            auto [pass, target] = addForwardPass(graph, in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, s == 0);
+            auto [pass, target] = addForwardPass(
+                graph, in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which,
+                s == 0);
             pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
                 .read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets)
                 .read(entries, Access::fragmentStorageRead, shared::kIndexEntries);
@@ -356,7 +411,8 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
             if (s == 0) shading.slice = x.plan.rest;
             pass.record([&scene = in.scene, shading, which](PassContext& context) {
                 testDepth(context, which);
-                which == Surfaces::blended ? scene.drawBlended(context, {shading}) : scene.drawSurfaces(context, shading);
+                which == Surfaces::blended ? scene.drawBlended(context, {shading})
+                                           : scene.drawSurfaces(context, shading);
             });
             addToSum(graph, in, target, sum);
         };
@@ -378,16 +434,22 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     if (settings.lidrPacking != LidrPacking::list) layout = indexLayout(settings, lights);
     if (layout && layout->mostIndex < lights && exact) list = true;
 
-    const bool surfaces = settings.lidrCover == LidrCover::surface || (settings.lidrCover == LidrCover::automatic && !in.scene.hasBlended());
-    if (settings.lidrShare && (!surfaces || multisampled || settings.lidrTypes == LidrTypes::targets || settings.lidrTables == LidrTables::textures))
-        throw Error(ErrorKind::usage, "lidr-share: expected lidr-cover surface, no surface that blends, msaa 1, one target for all types, and lidr-tables buffers");
-    Indexing x{.in = in, .layout = layout.value_or(IndexLayout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false}), .surfaces = surfaces && !(list && multisampled)};
+    const bool surfaces = settings.lidrCover == LidrCover::surface ||
+                          (settings.lidrCover == LidrCover::automatic && !in.scene.hasBlended());
+    if (settings.lidrShare && (!surfaces || multisampled || settings.lidrTypes == LidrTypes::targets ||
+                               settings.lidrTables == LidrTables::textures))
+        throw Error(ErrorKind::usage,
+                    "lidr-share: expected lidr-cover surface, no surface that blends, msaa 1, one target for all "
+                    "types, and lidr-tables buffers");
+    Indexing x{.in = in,
+               .layout = layout.value_or(IndexLayout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false}),
+               .surfaces = surfaces && !(list && multisampled)};
     const auto plan = [&] {
         IndexLayout asList = x.layout;
         asList.sorted = false;
         const bool onScreen = !x.surfaces && x.layout.sorted;
-        return planIndices(settings, list ? asList : x.layout, in.scene.lights(), in.scene.volumes(), onScreen ? &in.scene.view() : nullptr,
-                           settings.onOverflow != OnOverflow::exact);
+        return planIndices(settings, list ? asList : x.layout, in.scene.lights(), in.scene.volumes(),
+                           onScreen ? &in.scene.view() : nullptr, settings.onOverflow != OnOverflow::exact);
     };
     x.plan = plan();
     // A surface that blends takes all of its lights at once.
@@ -397,11 +459,14 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     }
     x.depth = multisampled && !x.surfaces ? addFarthestDepth(graph, in) : in.depth;
     x.samples = multisampled && x.surfaces;
-    // A guard costs the early depth test: it is there if what overflows is kept, and where a second pass goes on at its count.
+    // A guard costs the early depth test: it is there if what overflows is kept, and where a second pass goes on at its
+    // count.
     x.guarded = !x.layout.sorted && (in.attempt.report || x.layout.packing.passes > 1);
     x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
     x.shapes = addShapes(graph, in);
-    x.counters = graph.createBuffer("light-index.counters", (shared::kCounterCount + uint64_t(lights) * (in.attempt.report ? shared::kLostWords : 0)) * 4);
+    x.counters = graph.createBuffer(
+        "light-index.counters",
+        (shared::kCounterCount + uint64_t(lights) * (in.attempt.report ? shared::kLostWords : 0)) * 4);
     addZero(graph, in.phase + "light-indexed.zero", x.counters);
 
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
@@ -426,13 +491,22 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     for (const ImageId table : x.tables) frame.stats.tableBytes += graph.resources()[table.index].bytes();
     frame.stats.packing = "list";
     if (!list) {
-        frame.stats.packing = fmt::format("{} {}x{}", getSetting(settings, "lidr-packing"), x.layout.overlap, x.layout.mostIndex);
-        frame.stats.imageBytes = settings.lidrShare ? 0 : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) * x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
+        frame.stats.packing =
+            fmt::format("{} {}x{}", getSetting(settings, "lidr-packing"), x.layout.overlap, x.layout.mostIndex);
+        frame.stats.imageBytes = settings.lidrShare
+                                     ? 0
+                                     : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) *
+                                           x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
     }
 }
 
 LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {
-    Indexing x{.in = in, .layout = indexLayout(in.settings, in.scene.lightCount()), .surfaces = true, .depth = in.depth, .samples = false, .guarded = false};
+    Indexing x{.in = in,
+               .layout = indexLayout(in.settings, in.scene.lightCount()),
+               .surfaces = true,
+               .depth = in.depth,
+               .samples = false,
+               .guarded = false};
     x.plan = planIndices(in.settings, x.layout, in.scene.lights(), in.scene.volumes(), nullptr, false);
     x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
     x.shapes = addShapes(graph, in);
@@ -441,7 +515,8 @@ LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
     x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, extent});
     std::vector<ImageId> images;
-    for (uint32_t i = 0; i < x.layout.imageCount(); ++i) images.push_back(graph.createImage("light-index", {x.layout.format, extent}));
+    for (uint32_t i = 0; i < x.layout.imageCount(); ++i)
+        images.push_back(graph.createImage("light-index", {x.layout.format, extent}));
     addIndexPasses(graph, x, x.plan.sets.front().front(), images);
     addSaturated(graph, x);
     return {x.layout, images, x.counters};

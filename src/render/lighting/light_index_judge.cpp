@@ -15,7 +15,8 @@ void tellLost(std::span<const uint32_t> counters, const GpuScene& scene, LightIn
     for (uint32_t i = 0; i < scene.lightCount(); ++i) {
         const uint32_t* words = &counters[kCounterCount + size_t(i) * kLostWords];
         if (words[0] == 0) continue;
-        stats.lost.push_back({scene.lights().sources[i].sceneIndex, words[0], (double(words[1]) + 4294967296.0 * words[2]) / 65536});
+        stats.lost.push_back(
+            {scene.lights().sources[i].sceneIndex, words[0], (double(words[1]) + 4294967296.0 * words[2]) / 65536});
         stats.pairsOver += words[0];
     }
     std::ranges::sort(stats.lost, {}, &LightIndexStats::Lost::light);
@@ -23,8 +24,9 @@ void tellLost(std::span<const uint32_t> counters, const GpuScene& scene, LightIn
 
 }  // namespace
 
-std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters, const RenderSettings& settings,
-                                       const GpuScene& scene, uint64_t largestBuffer, LightIndexStats& stats) {
+std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters,
+                                       const RenderSettings& settings, const GpuScene& scene, uint64_t largestBuffer,
+                                       LightIndexStats& stats) {
     stats = frame.stats;
     LightIndexAttempt next = frame.attempt;
     if (frame.attempt.list) {
@@ -51,9 +53,12 @@ std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<c
         return next;
     }
     if (settings.onOverflow == OnOverflow::fail && stats.pairsOver > 0)
-        throw Error(ErrorKind::limit, fmt::format("light-indexed: expected at most {} lights a pixel of the {} that {} tells apart, got more at {} pixels: "
-                                                  "{} pairs of a light and a pixel do not fit (on-overflow exact keeps them)",
-                                                  frame.layout->overlap, frame.layout->mostIndex, stats.packing, stats.pixelsOver, stats.pairsOver));
+        throw Error(ErrorKind::limit,
+                    fmt::format("light-indexed: expected at most {} lights a pixel of the {} that {} tells apart, got "
+                                "more at {} pixels: "
+                                "{} pairs of a light and a pixel do not fit (on-overflow exact keeps them)",
+                                frame.layout->overlap, frame.layout->mostIndex, stats.packing, stats.pixelsOver,
+                                stats.pairsOver));
     return std::nullopt;
 }
 

@@ -13,8 +13,9 @@ using namespace shared;
 
 namespace {
 
-/// Trebilco 2009, Table 2.9.1, as one rule. An index of `indexBits` bits is cut into digits of 8 / overlap bits, a channel each; beyond
-/// eight indices a second pass fills as many images again. What needs more than 16 channels, or no channel whole, is not in the table.
+/// Trebilco 2009, Table 2.9.1, as one rule. An index of `indexBits` bits is cut into digits of 8 / overlap bits, a
+/// channel each; beyond eight indices a second pass fills as many images again. What needs more than 16 channels, or no
+/// channel whole, is not in the table.
 std::optional<IndexLayout> bitShiftLayout(uint32_t overlap, uint32_t indexBits) {
     if (!std::has_single_bit(overlap) || overlap > 16) return std::nullopt;
     IndexPacking packing{.kind = kPackedBits, .indexBits = indexBits, .perPass = std::min(overlap, 8u), .unit = 255};
@@ -23,7 +24,8 @@ std::optional<IndexLayout> bitShiftLayout(uint32_t overlap, uint32_t indexBits) 
     const uint32_t channels = indexBits / packing.entryBits;
     if (channels == 0 || channels * packing.passes > 16) return std::nullopt;
     packing.images = (channels + 3) / 4;
-    const vk::Format formats[] = {vk::Format::eUndefined, vk::Format::eR8Unorm, vk::Format::eR8G8Unorm, vk::Format::eR8G8B8A8Unorm, vk::Format::eR8G8B8A8Unorm};
+    const vk::Format formats[] = {vk::Format::eUndefined, vk::Format::eR8Unorm, vk::Format::eR8G8Unorm,
+                                  vk::Format::eR8G8B8A8Unorm, vk::Format::eR8G8B8A8Unorm};
     return IndexLayout{packing, formats[std::min(channels, 4u)], overlap, (1u << indexBits) - 1, false};
 }
 
@@ -45,8 +47,10 @@ IndexLayout channelLayout(uint32_t kind, uint32_t channels, uint32_t indexBits, 
 
 std::optional<IndexLayout> layoutFor(LidrPacking packing, uint32_t overlap, uint32_t indexBits) {
     switch (packing) {
-        case LidrPacking::bitShift: return bitShiftLayout(overlap, indexBits);
-        case LidrPacking::cpuSort: return channelLayout(kPackedChannels, overlap, indexBits, overlap, 1);
+        case LidrPacking::bitShift:
+            return bitShiftLayout(overlap, indexBits);
+        case LidrPacking::cpuSort:
+            return channelLayout(kPackedChannels, overlap, indexBits, overlap, 1);
         default: {
             const bool sorted = packing == LidrPacking::maxBlendSorted;
             if (overlap != 4 && (sorted || overlap != 2)) return std::nullopt;
@@ -64,8 +68,10 @@ namespace {
 /// The layout in the light buffer itself: a float in [0, 1) keeps the digits of a channel, as so many 256ths.
 IndexLayout inLightBuffer(IndexLayout layout, LightBufferFormat format) {
     if (layout.packing.kind != kPackedBits || layout.format != vk::Format::eR8G8B8A8Unorm || layout.imageCount() != 1)
-        throw Error(ErrorKind::usage, "lidr-share: expected a packing of four channels, bit-shift 8x15, 4x255 or 2x65535");
-    layout.format = format == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR16G16B16A16Sfloat;
+        throw Error(ErrorKind::usage,
+                    "lidr-share: expected a packing of four channels, bit-shift 8x15, 4x255 or 2x65535");
+    layout.format =
+        format == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat : vk::Format::eR16G16B16A16Sfloat;
     layout.packing.unit = 256;
     return layout;
 }
@@ -74,7 +80,9 @@ IndexLayout inLightBuffer(IndexLayout layout, LightBufferFormat format) {
 
 IndexLayout indexLayout(const RenderSettings& settings, uint32_t lights) {
     constexpr uint32_t kBits[] = {4, 8, 16};
-    const auto wanted = [&](uint32_t bits) { return settings.indices == LidrIndices::automatic || kBits[uint32_t(settings.indices) - 1] == bits; };
+    const auto wanted = [&](uint32_t bits) {
+        return settings.indices == LidrIndices::automatic || kBits[uint32_t(settings.indices) - 1] == bits;
+    };
     std::optional<IndexLayout> best;
     for (const uint32_t bits : kBits) {
         if (!wanted(bits)) continue;
@@ -85,9 +93,13 @@ IndexLayout indexLayout(const RenderSettings& settings, uint32_t lights) {
     std::string rows;
     for (const uint32_t bits : kBits)
         for (uint32_t overlap = 1; overlap <= 16; ++overlap)
-            if (layoutFor(settings.lidrPacking, overlap, bits)) rows += fmt::format(" {}x{}", overlap, (1u << bits) - 1);
-    throw Error(ErrorKind::usage, fmt::format("lidr-packing: expected an overlap and indices out of{}, got {}x{}", rows, settings.overlap,
-                                              settings.indices == LidrIndices::automatic ? "auto" : std::to_string((1u << kBits[uint32_t(settings.indices) - 1]) - 1)));
+            if (layoutFor(settings.lidrPacking, overlap, bits))
+                rows += fmt::format(" {}x{}", overlap, (1u << bits) - 1);
+    throw Error(ErrorKind::usage,
+                fmt::format("lidr-packing: expected an overlap and indices out of{}, got {}x{}", rows, settings.overlap,
+                            settings.indices == LidrIndices::automatic
+                                ? "auto"
+                                : std::to_string((1u << kBits[uint32_t(settings.indices) - 1]) - 1)));
 }
 
 size_t IndexPlan::rounds() const {
@@ -115,7 +127,8 @@ std::vector<std::vector<uint32_t>> overlapsOf(const std::vector<Box>& boxes) {
             const Box &a = boxes[byLow[k]], &b = boxes[byLow[l]];
             if (a.high.y < b.low.y || b.high.y < a.low.y || a.high.z < b.low.z || b.high.z < a.low.z) continue;
             // Floats may round where the shader tests ranges.
-            const double reach = (a.ball.w + b.ball.w) * (1 + 1e-5) + 1e-6 * (length(dvec3(a.ball)) + length(dvec3(b.ball)));
+            const double reach =
+                (a.ball.w + b.ball.w) * (1 + 1e-5) + 1e-6 * (length(dvec3(a.ball)) + length(dvec3(b.ball)));
             if (a.ball.w >= 0 && b.ball.w >= 0 && length(dvec3(a.ball) - dvec3(b.ball)) > reach) continue;
             overlaps[byLow[k]].push_back(byLow[l]);
             overlaps[byLow[l]].push_back(byLow[k]);
@@ -129,7 +142,8 @@ Box boxInWorld(const LightConstants& light, const VolumeTables& volumes) {
     dvec4 ball;
     if (light.volume != kNoIndex) {
         const VolumeConstants& volume = volumes.volumes[light.volume];
-        ball = dvec4(0.5 * (dvec3(volume.low) + dvec3(volume.high)), 0.5 * distance(dvec3(volume.low), dvec3(volume.high)));
+        ball = dvec4(0.5 * (dvec3(volume.low) + dvec3(volume.high)),
+                     0.5 * distance(dvec3(volume.low), dvec3(volume.high)));
     } else if (light.type != kLightDirectional && light.range < kBoundless) {
         ball = dvec4(boundingBall(lightShape(light)));
     } else {
@@ -150,12 +164,14 @@ Box boxOnScreen(const LightConstants& source, const VolumeTables& volumes, const
 }
 
 /// What a light brings to the picture, about: its strength times how far it reaches.
-float importanceOf(const LightConstants& light) { return dot(light.color, vec3(0.2126f, 0.7152f, 0.0722f)) * std::min(light.range, kBoundless); }
+float importanceOf(const LightConstants& light) {
+    return dot(light.color, vec3(0.2126f, 0.7152f, 0.0722f)) * std::min(light.range, kBoundless);
+}
 
 }  // namespace
 
-std::vector<uint32_t> sortIntoArrays(const std::vector<uint32_t>& lights, const std::vector<std::vector<uint32_t>>& overlaps,
-                                     bool pairsMayOverlap) {
+std::vector<uint32_t> sortIntoArrays(const std::vector<uint32_t>& lights,
+                                     const std::vector<std::vector<uint32_t>>& overlaps, bool pairsMayOverlap) {
     std::vector<uint32_t> arrayOf(overlaps.size(), kNoIndex);
     for (const uint32_t light : lights) {
         // The neighbours in each array that has any.
@@ -180,8 +196,8 @@ std::vector<uint32_t> sortIntoArrays(const std::vector<uint32_t>& lights, const 
     return arrayOf;
 }
 
-IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout, const SortedLights& lights, const VolumeTables& volumes,
-                      const ViewConstants* view, bool oneRound) {
+IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout, const SortedLights& lights,
+                      const VolumeTables& volumes, const ViewConstants* view, bool oneRound) {
     const auto& sources = lights.sources;
     // Which set of images a light is drawn into; kNoIndex: none.
     const auto setOf = [&](uint32_t i) -> uint32_t {
@@ -203,7 +219,8 @@ IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout,
     const bool byImportance = settings.onOverflow == OnOverflow::priority;
     plan.remapped = byImportance && sources.size() > layout.mostIndex;
     if (byImportance)
-        for (auto& set : drawn) std::ranges::stable_sort(set, std::greater<>{}, [&](uint32_t i) { return importanceOf(sources[i]); });
+        for (auto& set : drawn)
+            std::ranges::stable_sort(set, std::greater<>{}, [&](uint32_t i) { return importanceOf(sources[i]); });
     if (plan.remapped) {
         uint32_t room = layout.mostIndex;
         for (auto& set : drawn) {
@@ -219,7 +236,8 @@ IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout,
     std::vector<std::vector<uint32_t>> overlaps;
     if (sorted) {
         std::vector<Box> boxes;
-        for (const LightConstants& light : sources) boxes.push_back(view ? boxOnScreen(light, volumes, *view) : boxInWorld(light, volumes));
+        for (const LightConstants& light : sources)
+            boxes.push_back(view ? boxOnScreen(light, volumes, *view) : boxInWorld(light, volumes));
         overlaps = overlapsOf(boxes);
     }
     const uint32_t arrays = extremes ? layout.packing.passes : layout.overlap;

@@ -16,15 +16,20 @@ namespace luciole::render {
 
 using frame::Access;
 
-float blendShift(const shared::IndexPacking& packing) { return packing.entryBits >= 8 ? 0.0f : 1.0f / float(1u << packing.entryBits); }
+float blendShift(const shared::IndexPacking& packing) {
+    return packing.entryBits >= 8 ? 0.0f : 1.0f / float(1u << packing.entryBits);
+}
 
 uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, const IndexLayout& layout, float shift) {
     const shared::IndexPacking& packing = layout.packing;
-    const gpu::Blend blend = packing.kind == shared::kPackedBits ? gpu::Blend::shift : packing.kind == shared::kPackedExtremes ? gpu::Blend::max : gpu::Blend::replace;
+    const gpu::Blend blend = packing.kind == shared::kPackedBits       ? gpu::Blend::shift
+                             : packing.kind == shared::kPackedExtremes ? gpu::Blend::max
+                                                                       : gpu::Blend::replace;
     const std::vector<uint32_t> constants{packing.kind, packing.indexBits, packing.entryBits, packing.unit};
     const std::string fragment = "render/lighting/light_index_self_test.frag";
     const auto draw = [constants](frame::PassContext& pass, const std::string& shader, gpu::Blend how) {
-        pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = shader, .blend = how, .constants = constants});
+        pass.bind(
+            {.vertex = "render/shaders/full_screen.vert", .fragment = shader, .blend = how, .constants = constants});
         pass.drawFullScreen();
     };
     frame::FrameGraph graph;
@@ -34,7 +39,9 @@ uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, con
     graph.addPass("zero").write(wrong, Access::transferWrite).record([wrong](frame::PassContext& pass) {
         pass.commands.fillBuffer(pass.buffer(wrong), 0, VK_WHOLE_SIZE, 0);
     });
-    graph.addPass("first").write(image, Access::colorWrite).record([=](frame::PassContext& pass) { draw(pass, fragment + "+FIRST", gpu::Blend::replace); });
+    graph.addPass("first").write(image, Access::colorWrite).record([=](frame::PassContext& pass) {
+        draw(pass, fragment + "+FIRST", gpu::Blend::replace);
+    });
     graph.addPass("second").update(image, Access::colorBlend).record([=](frame::PassContext& pass) {
         pass.commands.setBlendConstants(std::array{shift, shift, shift, shift}.data());
         draw(pass, fragment + "+SECOND", blend);
@@ -50,12 +57,14 @@ uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, con
     return executor.read<uint32_t>(wrong)[0];
 }
 
-LightIndexSelfTest::LightIndexSelfTest(const gpu::Context& context, gpu::Pipelines& pipelines, const std::string& cacheFolder)
+LightIndexSelfTest::LightIndexSelfTest(const gpu::Context& context, gpu::Pipelines& pipelines,
+                                       const std::string& cacheFolder)
     : context_(context), pipelines_(pipelines) {
     if (cacheFolder.empty()) return;
     // By name and version: Mesa's software driver (22.3) has one UUID for all of its versions.
     std::string name = "light-index " + context.info().name + " " + context.info().driver;
-    std::ranges::replace_if(name, [](unsigned char c) { return !std::isalnum(c) && c != '.'; }, '-');
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return !std::isalnum(c) && c != '.'; }, '-');
     file_ = std::filesystem::path(cacheFolder) / name.substr(0, 200);
     load();
 }
@@ -65,7 +74,9 @@ void LightIndexSelfTest::load() {
     std::ifstream stream(file_);
     for (std::string line; std::getline(stream, line);) {
         const size_t tab = line.find('\t');
-        if (tab == std::string::npos || tab + 1 >= line.size() || line.find_first_not_of("0123456789", tab + 1) != std::string::npos) continue;
+        if (tab == std::string::npos || tab + 1 >= line.size() ||
+            line.find_first_not_of("0123456789", tab + 1) != std::string::npos)
+            continue;
         outcomes_[line.substr(0, tab)] = {uint32_t(std::strtoul(line.c_str() + tab + 1, nullptr, 10)), 0};
     }
 }
@@ -83,7 +94,10 @@ void LightIndexSelfTest::save() const {
 
 const LightIndexSelfTest::Outcome& LightIndexSelfTest::of(const IndexLayout& layout) {
     const shared::IndexPacking& p = layout.packing;
-    const std::string name = fmt::format("{} {} {}", p.kind == shared::kPackedBits ? "bits" : p.kind == shared::kPackedChannels ? "channels" : "extremes",
+    const std::string name = fmt::format("{} {} {}",
+                                         p.kind == shared::kPackedBits       ? "bits"
+                                         : p.kind == shared::kPackedChannels ? "channels"
+                                                                             : "extremes",
                                          p.entryBits, vk::to_string(layout.format));
     const auto known = outcomes_.find(name);
     if (known != outcomes_.end()) {
