@@ -48,7 +48,8 @@ struct PassStats {
 };
 
 /// What light-indexed rendering did, and what became of lights that found no room. Pairs are those of a light and a pixel that it
-/// hits, whatever it is linked to; with msaa and lidr-cover surface a pixel's samples count one by one.
+/// hits, whatever it is linked to; with msaa and lidr-cover surface a pixel's samples count one by one,
+/// and lists count all lights on the way to the surface.
 struct LightIndexStats {
     std::string packing;       ///< what held the indices: "bit-shift 4x255", or "list"
     bool fellBack = false;     ///< lists stood in for the packing, which could not hold all lights

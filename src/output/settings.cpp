@@ -59,26 +59,17 @@ std::optional<float> parseNumber(std::string_view text) {
     return value;
 }
 
-template <float RenderSettings::*Member>
+template <auto Member>
 Setting number(std::string_view name, std::string_view help, double low, double high) {
+    using Number = std::remove_cvref_t<decltype(RenderSettings{}.*Member)>;
     return {.name = name,
             .help = help,
-            .type = "number",
+            .type = std::is_integral_v<Number> ? "whole" : "number",
             .low = low,
             .high = high,
             .get = [](const RenderSettings& settings) { return fmt::format("{}", settings.*Member); },
-            .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = *parseNumber(value); }};
-}
-
-template <uint32_t RenderSettings::*Member>
-Setting whole(std::string_view name, std::string_view help, double low, double high) {
-    return {.name = name,
-            .help = help,
-            .type = "whole",
-            .low = low,
-            .high = high,
-            .get = [](const RenderSettings& settings) { return fmt::format("{}", settings.*Member); },
-            .set = [](RenderSettings& settings, std::string_view value) { settings.*Member = uint32_t(*parseNumber(value)); }};
+            .set = [](RenderSettings& settings,
+                      std::string_view value) { settings.*Member = Number(*parseNumber(value)); }};
 }
 
 bool accepts(const Setting& setting, std::string_view value) {
@@ -131,7 +122,7 @@ std::span<const Setting> settingsTable() {
         onOff<&RenderSettings::depthPrepass>("depth-prepass", "draw depth alone first, so each pixel is shaded once"),
         choice<&RenderSettings::msaa, kMsaaNames>("msaa", "samples a pixel, of forward techniques"),
         choice<&RenderSettings::lidrPacking, kLidrPackingNames>("lidr-packing", "light-indexed: how several light indices share a pixel"),
-        whole<&RenderSettings::overlap>("overlap", "light-indexed: light indices that a pixel has room for", 1, 16),
+        number<&RenderSettings::overlap>("overlap", "light-indexed: light indices that a pixel has room for", 1, 16),
         choice<&RenderSettings::indices, kLidrIndicesNames>("indices", "light-indexed: lights that indices tell apart"),
         choice<&RenderSettings::onOverflow, kOnOverflowNames>("on-overflow", "light-indexed, where lights do not fit: take a path that holds them, keep the important ones, or fail"),
         choice<&RenderSettings::lidrCover, kLidrCoverNames>("lidr-cover", "light-indexed: which lights a pixel indexes"),
@@ -143,7 +134,7 @@ std::span<const Setting> settingsTable() {
                 .type = "name",
                 .get = [](const RenderSettings& settings) { return settings.bounceLight; },
                 .set = [](RenderSettings& settings, std::string_view value) { settings.bounceLight = value; }},
-        whole<&RenderSettings::bounceGrid>("bounce-grid", "small lights a side that stand in for the bounce: n x n", 1, 256),
+        number<&RenderSettings::bounceGrid>("bounce-grid", "small lights a side that stand in for the bounce: n x n", 1, 256),
         onOff<&RenderSettings::cullLights>("cull-lights", "leave out lights whose shape covers no pixel; off to measure what that saves"),
         number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),
         choice<&RenderSettings::toneMap, kToneMapNames>("tonemap", "how radiance becomes a picture"),

@@ -195,23 +195,13 @@ struct Renderer::Impl {
         return outcome;
     }
 
-    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
-        checkRequest(view, aovs);
-        render::checkAgainstDevice(context, view.extent);
-        render::checkSettings(context, settings);
-        const bool counts = std::ranges::any_of(aovs, render::isCount);
-        const bool others = !std::ranges::all_of(aovs, render::isCount);
-        if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
-        gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
-        render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
-        if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
-        // The attempt that did last time, if nothing else has changed and it was not more than needed.
-        if (frame) key.attempt = frame->key.attempt;
-        if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
+    struct Run {
         std::optional<LightIndexStats> lightIndex;
-        const render::LightIndexSelfTest::Outcome tried = trial(settings);
-        key.attempt.list |= tried.wrong > 0;
-        std::chrono::duration<double, std::milli> wall{};
+        double wallMs = 0;
+    };
+    /// Runs `frame`, made anew where the key asks for it, until what it counted says that no light was lost that should not be.
+    Run runUntilHeld(render::FrameKey key, const RenderSettings& settings) {
+        Run run;
         for (std::optional<render::LightIndexAttempt> attempt = key.attempt; attempt;) {
             key.attempt = *attempt;
             attempt.reset();
@@ -225,23 +215,41 @@ struct Renderer::Impl {
             frame->warm = true;
             const auto start = std::chrono::steady_clock::now();
             frame->executor.run(gpuScene->frameSet(), settings.measure);
-            wall = std::chrono::steady_clock::now() - start;
+            run.wallMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
             if (frame->lightIndex.counters)
                 attempt = render::judge(frame->lightIndex, frame->executor.read<uint32_t>(*frame->lightIndex.counters), settings, *gpuScene,
-                                        context.limits().maxStorageBufferRange, lightIndex.emplace());
+                                        context.limits().maxStorageBufferRange, run.lightIndex.emplace());
         }
+        frame->excessive = run.lightIndex && run.lightIndex->fellBack && run.lightIndex->pixelsOver == 0;
+        return run;
+    }
 
-        if (lightIndex) lightIndex->selfTestMs = tried.ms, lightIndex->wrongValues = tried.wrong;
-        frame->excessive = lightIndex && lightIndex->fellBack && lightIndex->pixelsOver == 0;
+    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
+        checkRequest(view, aovs);
+        render::checkAgainstDevice(context, view.extent);
+        render::checkSettings(context, settings);
+        const bool counts = std::ranges::any_of(aovs, render::isCount);
+        const bool others = !std::ranges::all_of(aovs, render::isCount);
+        if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
+        gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
+        render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
+        if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
+        // The attempt that did last time, if nothing else has changed and it was not more than needed.
+        if (frame) key.attempt = frame->key.attempt;
+        if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
+        const render::LightIndexSelfTest::Outcome tried = trial(settings);
+        key.attempt.list |= tried.wrong > 0;
+        Run run = runUntilHeld(key, settings);
+        if (run.lightIndex) run.lightIndex->selfTestMs = tried.ms, run.lightIndex->wrongValues = tried.wrong;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
         result.stats = {.passes = frame->executor.stats(),
-                        .wallMs = wall.count(),
+                        .wallMs = run.wallMs,
                         .recordMs = frame->executor.recordMs(),
                         .peakBytes = context.peakBytes(),
                         .triangles = gpuScene->triangles(),
                         .lights = gpuScene->lightCount(),
-                        .lightIndex = std::move(lightIndex),
+                        .lightIndex = std::move(run.lightIndex),
                         .deviceName = context.info().name,
                         .driver = context.info().driver};
         result.graph = frame->executor.dot();
