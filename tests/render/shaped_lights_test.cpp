@@ -152,7 +152,12 @@ TEST_CASE("shaped lights: over 2,000 random views no technique misses or doubles
         validate(scene);
         renderer->setScene(scene);
         const auto render = [&](std::string_view technique, const View& view) {
-            return renderer->render(view, {.lighting = std::string(technique), .gbuffer = layout}, kCounts);
+            RenderSettings settings{.lighting = std::string(technique), .gbuffer = layout, .overlap = 16};
+            // Light indices: what the packings share is how lights are drawn, to the surface or on the way to it.
+            constexpr LidrPacking kPackings[] = {LidrPacking::list, LidrPacking::cpuSort, LidrPacking::bitShift};
+            settings.lidrPacking = kPackings[s / 3 % 3];
+            settings.lidrCover = s / 9 % 2 == 0 ? LidrCover::surface : LidrCover::frontFaces;
+            return renderer->render(view, settings, kCounts);
         };
         std::map<std::string, std::vector<Frame>> yardsticks;
         std::vector<std::vector<bool>> skipped;

@@ -43,7 +43,7 @@ struct Indexing {
         const shared::IndexPacking& p = layout.packing;
         std::vector<uint32_t> constants = in.constants;
         constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit,
-                                           uint32_t(surfaces), uint32_t(plan.remapped)});
+                                           uint32_t(surfaces), uint32_t(plan.remapped), uint32_t(guarded)});
         return constants;
     }
 };

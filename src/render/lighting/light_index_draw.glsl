@@ -13,6 +13,7 @@ layout(constant_id = 7) const uint kPasses = 1u;
 layout(constant_id = 8) const uint kImages = 1u;
 layout(constant_id = 9) const uint kUnit = 255u;
 layout(constant_id = 10) const uint kSurfaces = 1u;  // 1: lights that reach the surface; 0: all on the way there
+layout(constant_id = 12) const uint kGuarded = 0u;   // the stencil counts the lights of each pixel
 
 layout(location = 0) flat in uint lightIndex;
 layout(location = 1) flat in uint index;  // what stands for it in the images
@@ -36,8 +37,9 @@ float surfaceDepth() { return texelFetch(depths, ivec2(gl_FragCoord.xy), 0).x; }
 
 // Whatever it is linked to: whose surface it is, the depth does not tell.
 bool hits() {
-    if (kSurfaces == 0u) return true;
     const float depth = surfaceDepth();
+    // A stencil that does not let a light through counts it before the depth test, hidden or not: so it is tested here.
+    if (kSurfaces == 0u) return kGuarded == 0u || gl_FragCoord.z >= depth;
     LightConstants light;
     light.position = positionRange.xyz;
     light.range = positionRange.w;
