@@ -356,3 +356,60 @@ TEST_CASE(
     CHECK(radiance < 5 / kPi);
     CHECK(radiance > 0.3 * 5 / kPi);
 }
+
+TEST_CASE("light-indexed: arrays sorted by the host hold no two lights that overlap, or no three") {
+    const auto check = [](bool pairsMayOverlap) {
+        // A ring of twelve, each overlapping its four nearest, and one light that overlaps all.
+        constexpr uint32_t kCount = 13;
+        std::vector<std::vector<uint32_t>> overlaps(kCount);
+        for (uint32_t i = 0; i < 12; ++i) overlaps[i] = {(i + 1) % 12, (i + 2) % 12, (i + 10) % 12, (i + 11) % 12, 12};
+        for (uint32_t i = 0; i < 12; ++i) overlaps[12].push_back(i);
+        std::vector<uint32_t> lights(kCount);
+        for (uint32_t i = 0; i < kCount; ++i) lights[i] = i;
+        const std::vector<uint32_t> arrays = render::sortIntoArrays(lights, overlaps, pairsMayOverlap);
+        const auto meet = [&](uint32_t a, uint32_t b) {
+            return arrays[a] == arrays[b] && std::ranges::find(overlaps[a], b) != overlaps[a].end();
+        };
+        size_t pairs = 0, triples = 0;
+        for (uint32_t a = 0; a < kCount; ++a)
+            for (uint32_t b = a + 1; b < kCount; ++b) {
+                pairs += meet(a, b);
+                for (uint32_t c = b + 1; c < kCount; ++c) triples += meet(a, b) && meet(b, c) && meet(a, c);
+            }
+        CHECK(arrays[0] == 0);  // the first light, the most important one, comes first
+        CHECK(triples == 0);
+        CHECK((pairs > 0) == pairsMayOverlap);
+        return 1 + *std::ranges::max_element(arrays);
+    };
+    CHECK(check(false) == 4);  // the ring takes three
+    CHECK(check(true) < 4);
+}
+
+TEST_CASE("light-indexed: what fits no array goes to a second round, or is dropped and reported to the pixel") {
+    ValidatedRenderer renderer;
+    Scene scene;
+    addObject(scene, quad(4), lambertMaterial(scene));
+    // Two that overlap, the second one weaker, and one apart.
+    scene.lights = {pointLight(vec3(-0.2f, 0, 0.3f), vec3(4), 0.6f), pointLight(vec3(0.2f, 0, 0.3f), vec3(2), 0.6f),
+                    pointLight(vec3(1.4f, 0, 0.3f), vec3(1), 0.4f)};
+    const View view{frontCamera(3), {64, 48}};
+    Scene weaker = scene;
+    weaker.lights = {scene.lights[1]};
+    uint64_t reached = 0;
+    for (const uint32_t count : hitsOf(renderer, weaker, view)) reached += count;
+    REQUIRE(reached > 0);
+
+    renderer->setScene(scene);
+    const Row row{LidrPacking::cpuSort, 1, LidrIndices::n255};
+    const Frame yardstick = renderer->render(view, {.lighting = "forward-loop"});
+    const Frame exact = renderer->render(view, settingsOf(row));
+    CHECK(exact.stats.lightIndex->rounds == 2);
+    CHECK(difference(exact.radiance, yardstick.radiance).max <= roundoff(scene));
+    const LightIndexStats stats = *renderer->render(view, settingsOf(row, OnOverflow::priority)).stats.lightIndex;
+    REQUIRE(stats.lost.size() == 1);
+    CHECK(stats.lost[0].light == 1);
+    CHECK(stats.lost[0].pairs == reached);
+    CHECK(stats.pixelsOver == reached);
+    CHECK_THROWS_WITH_AS(renderer->render(view, settingsOf(row, OnOverflow::fail)),
+                         doctest::Contains("pairs of a light and a pixel do not fit"), Error);
+}

@@ -121,9 +121,8 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
                                                                        : gpu::Blend::replace;
     std::vector<bool> cleared(images.size());
     // Draws into the same images are one pass.
-    for (size_t begin = 0, end = 0; begin < round.size() || begin == 0; begin = end) {
-        const IndexDraw empty{};
-        const IndexDraw& first = round.empty() ? empty : round[begin];
+    for (size_t begin = 0, end = 0; begin < round.size(); begin = end) {
+        const IndexDraw& first = round[begin];
         while (end < round.size() && round[end].firstImage == first.firstImage) ++end;
         const std::vector<IndexDraw> draws(round.begin() + ptrdiff_t(begin), round.begin() + ptrdiff_t(end));
         auto pass = graph.addPass(x.in.phase + "light-indexed.index");
@@ -158,7 +157,6 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
                 drawLights(context, scene, draw.slice, surfaces);
             }
         });
-        if (round.empty()) break;
     }
     for (uint32_t i = 0; i < images.size(); ++i)
         if (!cleared[i])
