@@ -71,6 +71,16 @@ struct LightIndexStats {
     uint32_t withoutIndex = 0; ///< lights that every fragment looks at (lidr-types)
 };
 
+/// The lists of lights that tiled and clustered techniques made.
+struct LightListStats {
+    uint32_t tileSize = 0;  ///< pixels
+    uint32_t lists = 0;     ///< tiles, or clusters that hold a surface
+    uint64_t entries = 0;   ///< of all lists
+    uint32_t longest = 0;   ///< entries of the longest list; of several pages, of one of them
+    uint32_t pages = 1;     ///< parts of the lights, each with lists of its own: one, unless a buffer or a loop would get too long
+    uint64_t bytes = 0;     ///< of the lists and what leads to them
+};
+
 struct FrameStats {
     std::vector<PassStats> passes;
     double wallMs = 0;          ///< recording, submission and execution, without upload and read-back
@@ -79,6 +89,7 @@ struct FrameStats {
     uint64_t triangles = 0;
     uint32_t lights = 0;
     std::optional<LightIndexStats> lightIndex;
+    std::optional<LightListStats> lightLists;
     std::string deviceName, driver;
 };
 

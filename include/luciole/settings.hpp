@@ -17,6 +17,7 @@ enum class LidrCover : uint8_t { automatic, surface, frontFaces };  ///< lights 
 enum class LidrTypes : uint8_t { flag, one, targets };              ///< what becomes of several types of light
 enum class LidrTables : uint8_t { buffers, textures };              ///< where surfaces read lights by index
 enum class OnOverflow : uint8_t { exact, priority, fail };
+enum class TileSize : uint8_t { automatic, n8, n16, n32 };
 enum class Msaa : uint8_t { x1, x4 };  ///< samples a pixel
 
 /// How a picture is made. Each member is one row of `settingsTable`.
@@ -34,6 +35,7 @@ struct RenderSettings {
     LidrTypes lidrTypes = LidrTypes::flag;
     LidrTables lidrTables = LidrTables::buffers;
     bool lidrShare = false;
+    TileSize tileSize = TileSize::automatic;  ///< pixels; tiled and clustered techniques
     std::string bounceLight = "none";  ///< the light whose first bounce is shown: a light's name, or its index in Scene::lights
     uint32_t bounceGrid = 32;          ///< so many small lights a side stand in for the bounce, [1, 256]
     bool cullLights = true;

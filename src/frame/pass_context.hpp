@@ -27,6 +27,7 @@ public:
         std::string vertex;
         std::string fragment = {};
         bool meshVertices = false;
+        bool points = false;     ///< instead of triangles
         gpu::Blend blend = gpu::Blend::replace;
         bool lastAdds = false;   ///< the last colour attachment adds, whatever the others do
         uint8_t channels = 0xf;  ///< of the attachments, those that are written
@@ -39,7 +40,7 @@ public:
         bool marksStencil;
     };
     Prepared prepare(const Draw& draw) {
-        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .blend = draw.blend, .feedback = feedback_, .lastAdds = draw.lastAdds,
+        return {pipelines_.get({.vertex = draw.vertex, .fragment = draw.fragment, .meshVertices = draw.meshVertices, .points = draw.points, .blend = draw.blend, .feedback = feedback_, .lastAdds = draw.lastAdds,
                                 .channels = draw.channels, .depthClamp = draw.depthClamp, .constants = draw.constants,
                                 .colors = colors_, .depth = depth_, .samples = target_.samples}),
                 !colors_.empty() && draw.fragment.empty()};
@@ -86,6 +87,11 @@ public:
     void drawIndexedIndirect(BufferId arguments, vk::DeviceSize offset) {
         count();
         commands.drawIndexedIndirect(buffer(arguments), offset, 1, 0);
+    }
+    /// One VkDrawIndirectCommand at `offset` bytes.
+    void drawIndirect(BufferId arguments, vk::DeviceSize offset) {
+        count();
+        commands.drawIndirect(buffer(arguments), offset, 1, 0);
     }
     /// One triangle that covers the target, for full_screen.vert.
     void drawFullScreen() { draw(3); }

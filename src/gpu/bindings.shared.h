@@ -15,6 +15,7 @@ const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once m
 const uint kFrameSources = 8u;        // storage buffers from here: the lights in world space
 const uint kFrameVolumes = 9u;
 const uint kFrameVolumeVertices = 10u;
+const uint kFrameLightTree = 11u;     // sampled image: light_tree.shared.h
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names

@@ -193,7 +193,7 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     vk::PhysicalDeviceVulkan13Features v13;
     vk::PhysicalDeviceVulkan12Features v12{.pNext = &v13};
     const vk::PhysicalDeviceFeatures has = physical.getFeatures();
-    vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32, .sampleRateShading = has.sampleRateShading};
+    vk::PhysicalDeviceFeatures features{.fullDrawIndexUint32 = has.fullDrawIndexUint32, .sampleRateShading = has.sampleRateShading, .largePoints = has.largePoints};
     enableFeatures(features, v12, v13);
     vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT feedback{.pNext = &v12, .attachmentFeedbackLoopLayout = true};
     const bool feeds = hasFeedbackLoops(physical);

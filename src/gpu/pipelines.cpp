@@ -27,6 +27,7 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
     add(frame, kFrameUniformLights, 1, Type::eUniformBuffer);
     add(frame, kFrameSources, kFrameVolumeVertices - kFrameSources + 1, Type::eStorageBuffer);
+    add(frame, kFrameLightTree, 1, Type::eCombinedImageSampler);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
     // every slot and would follow a null pointer.
@@ -156,7 +157,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
                     .pVertexBindingDescriptions = &kMeshBinding,
                     .vertexAttributeDescriptionCount = uint32_t(std::size(kMeshAttributes)),
                     .pVertexAttributeDescriptions = kMeshAttributes};
-    const vk::PipelineInputAssemblyStateCreateInfo assembly{.topology = vk::PrimitiveTopology::eTriangleList};
+    const vk::PipelineInputAssemblyStateCreateInfo assembly{
+        .topology = key.points ? vk::PrimitiveTopology::ePointList : vk::PrimitiveTopology::eTriangleList};
     const vk::PipelineViewportStateCreateInfo viewport{.viewportCount = 1, .scissorCount = 1};
     const vk::PipelineRasterizationStateCreateInfo rasterization{
         .depthClampEnable = key.depthClamp, .polygonMode = vk::PolygonMode::eFill, .lineWidth = 1};

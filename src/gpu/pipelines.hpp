@@ -27,6 +27,7 @@ struct PipelineKey {
     std::string vertex;
     std::string fragment;               ///< empty: nothing is written to colour attachments
     bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
+    bool points = false;                ///< draws points instead of triangles
     Blend blend = Blend::replace;
     bool feedback = false;              ///< reads the colour attachment that it writes
     bool lastAdds = false;              ///< the last colour attachment adds, whatever the others do

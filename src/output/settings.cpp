@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 3> kLidrCoverNames{"auto", "surface", "fr
 constexpr std::array<std::string_view, 3> kLidrTypesNames{"flag", "one", "targets"};
 constexpr std::array<std::string_view, 2> kLidrTablesNames{"buffers", "textures"};
 constexpr std::array<std::string_view, 3> kOnOverflowNames{"exact", "priority", "fail"};
+constexpr std::array<std::string_view, 4> kTileSizeNames{"auto", "8", "16", "32"};
 constexpr std::array<std::string_view, 2> kMsaaNames{"1", "4"};
 constexpr std::array<std::string_view, 4> kToneMapNames{"none", "reinhard", "aces", "agx"};
 
@@ -129,6 +130,7 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::lidrTypes, kLidrTypesNames>("lidr-types", "light-indexed: indices for all types of light by a flag, for points only, or in targets of their own"),
         choice<&RenderSettings::lidrTables, kLidrTablesNames>("lidr-tables", "light-indexed: where surfaces read the data of lights"),
         onOff<&RenderSettings::lidrShare>("lidr-share", "light-indexed: the light buffer holds the indices before it holds light, where the device allows it"),
+        choice<&RenderSettings::tileSize, kTileSizeNames>("tile-size", "tiled and clustered: pixels a side of a tile"),
         Setting{.name = "bounce-light",
                 .help = "spot light whose first bounce is shown, by name or index; none: no bounce",
                 .type = "name",

@@ -12,6 +12,7 @@
 #include "output/request.hpp"
 #include "render/geometry/gbuffer.hpp"
 #include "render/lighting/bounce.shared.h"
+#include "render/lighting/light_tree.shared.h"
 #include "render/tables.hpp"
 #include "scene/mip_chain.hpp"
 
@@ -209,7 +210,7 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2},
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 4},
                                             {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1)},
                                             {vk::DescriptorType::eUniformBuffer, 4}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
@@ -268,6 +269,11 @@ void GpuScene::uploadLights(std::optional<Bounce> bounce) {
     gpu::Buffer sources = gpu::uploadBuffer(context_, "light sources", lights.sources, Usage::eStorageBuffer);
     lightTable_ = gpu::makeBuffer(context_, "light table", std::max(lights.sources.size() * sizeof(LightConstants), uniformBytes),
                                   Usage::eStorageBuffer | Usage::eUniformBuffer);
+    std::vector<vec4> tree = lightTree(lights, volumes_);
+    const auto rows = uint32_t(std::max<size_t>(1, (tree.size() + kTreeWidth - 1) / kTreeWidth));
+    tree.resize(size_t(rows) * kTreeWidth);
+    const std::span<const std::byte> texels = std::as_bytes(std::span(tree));
+    lightTree_ = gpu::uploadImage(context_, "light tree", vk::Format::eR32G32B32A32Sfloat, {kTreeWidth, rows}, std::span(&texels, 1));
     sources_ = std::move(sources);
     lights_ = std::move(lights);
     lightFeatures_ = features;
@@ -322,16 +328,18 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
                                                                       .pBufferInfo = &info},
                                                nullptr);
     }
-    const vk::DescriptorImageInfo image{.sampler = samplerOf({}),
-                                        .imageView = *functions_.view,
-                                        .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
-    context_.device().updateDescriptorSets(
-        vk::WriteDescriptorSet{.dstSet = set,
-                               .dstBinding = kFrameFunctions,
-                               .descriptorCount = 1,
-                               .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                               .pImageInfo = &image},
-        nullptr);
+    for (const auto& [slot, image] : {std::pair(kFrameFunctions, &functions_), std::pair(kFrameLightTree, &lightTree_)}) {
+        const vk::DescriptorImageInfo info{.sampler = samplerOf({}),
+                                           .imageView = *image->view,
+                                           .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+        context_.device().updateDescriptorSets(
+            vk::WriteDescriptorSet{.dstSet = set,
+                                   .dstBinding = slot,
+                                   .descriptorCount = 1,
+                                   .descriptorType = vk::DescriptorType::eCombinedImageSampler,
+                                   .pImageInfo = &info},
+            nullptr);
+    }
 }
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {

@@ -137,7 +137,7 @@ private:
     gpu::Buffer objects_, materials_, surfaces_, links_;
     gpu::Buffer sources_, lightTable_, volumeTable_, volumeVertices_, volumeIndices_;
     gpu::MappedBuffer view_, bounceView_;
-    gpu::Image functions_;
+    gpu::Image functions_, lightTree_;
     std::vector<Batch> batches_;
     std::vector<OpaqueObject> opaque_;
     std::vector<BlendedObject> blended_;  ///< setView sorts them

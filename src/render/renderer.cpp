@@ -32,7 +32,7 @@ struct FrameKey {
     RenderSettings settings;  ///< without those that are data
     bool aovs;
     bool counts;  ///< the technique runs a second time and counts
-    LightIndexAttempt attempt = {};
+    LightingAttempt attempt = {};
     std::optional<Camera> camera = {};  ///< where lights are sorted by where they are seen
     bool operator==(const FrameKey&) const = default;
 };
@@ -40,7 +40,7 @@ struct FrameKey {
 struct BuiltFrame {
     FrameKey key;
     FrameOutputs outputs;
-    LightIndexFrame lightIndex;
+    LightingReport report;
     frame::Executor executor;
     bool warm = false;
     bool excessive = false;  ///< lists were not needed any more
@@ -93,7 +93,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const bool depthFirst = key.settings.depthPrepass || (technique.forward && !multisampled);
     if (depthFirst) addDepth(graph, scene, "geometry.depth", gbuffer.depth);
     addGeometry(graph, scene, gbuffer, constants, depthFirst);
-    LightIndexFrame lightIndex;
+    LightingReport report;
     LightingInputs lighting{.gbuffer = gbuffer,
                             .scene = scene,
                             .constants = constants,
@@ -101,14 +101,15 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
                             .depth = gbuffer.depth,
                             .settings = key.settings,
                             .attempt = key.attempt,
-                            .lightIndex = &lightIndex};
+                            .largestBuffer = context.limits().maxStorageBufferRange,
+                            .report = &report};
     if (multisampled) {
         lighting.depth = graph.createImage("depth.samples", {graph.descOf(gbuffer.depth).format, extent, samples});
         addDepth(graph, scene, "geometry.depth-samples", lighting.depth);
         const frame::ImageId lit = graph.createImage("radiance.samples", {radianceFormat, extent, samples});
         technique.add(graph, lighting, lit);
         addResolve(graph, lit, radiance);
-    } else if (technique.forward) {
+    } else if (technique.forward || technique.whole) {
         technique.add(graph, lighting, radiance);
     } else {
         addInitialLight(graph, lighting, radiance);
@@ -118,7 +119,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const frame::ImageId display = addToneMap(graph, radiance, extent);
     FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
     if (key.counts) outputs.counts = addCounts(graph, lighting, technique);
-    return {.key = key, .outputs = outputs, .lightIndex = std::move(lightIndex), .executor = frame::Executor(context, pipelines, std::move(graph))};
+    return {.key = key, .outputs = outputs, .report = std::move(report), .executor = frame::Executor(context, pipelines, std::move(graph))};
 }
 
 /// Whether lights are sorted by where they are seen, and not once for all.
@@ -195,14 +196,11 @@ struct Renderer::Impl {
         return outcome;
     }
 
-    struct Run {
-        std::optional<LightIndexStats> lightIndex;
-        double wallMs = 0;
-    };
     /// Runs `frame`, made anew where the key asks for it, until what it counted says that no light was lost that should not be.
-    Run runUntilHeld(render::FrameKey key, const RenderSettings& settings) {
-        Run run;
-        for (std::optional<render::LightIndexAttempt> attempt = key.attempt; attempt;) {
+    /// \return what the technique and the clock say of the last run
+    FrameStats runUntilHeld(render::FrameKey key, const RenderSettings& settings) {
+        FrameStats stats;
+        for (std::optional<render::LightingAttempt> attempt = key.attempt; attempt;) {
             key.attempt = *attempt;
             attempt.reset();
             if (!frame || frame->key != key) {
@@ -215,13 +213,12 @@ struct Renderer::Impl {
             frame->warm = true;
             const auto start = std::chrono::steady_clock::now();
             frame->executor.run(gpuScene->frameSet(), settings.measure);
-            run.wallMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-            if (frame->lightIndex.counters)
-                attempt = render::judge(frame->lightIndex, frame->executor.read<uint32_t>(*frame->lightIndex.counters), settings, *gpuScene,
-                                        context.limits().maxStorageBufferRange, run.lightIndex.emplace());
+            stats.wallMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            const render::LightingReport& report = frame->report;
+            if (report.counters) attempt = report.judge(frame->executor.read<uint32_t>(*report.counters), stats);
         }
-        frame->excessive = run.lightIndex && run.lightIndex->fellBack && run.lightIndex->pixelsOver == 0;
-        return run;
+        frame->excessive = stats.lightIndex && stats.lightIndex->fellBack && stats.lightIndex->pixelsOver == 0;
+        return stats;
     }
 
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
@@ -239,19 +236,18 @@ struct Renderer::Impl {
         if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
         const render::LightIndexSelfTest::Outcome tried = trial(settings);
         key.attempt.list |= tried.wrong > 0;
-        Run run = runUntilHeld(key, settings);
-        if (run.lightIndex) run.lightIndex->selfTestMs = tried.ms, run.lightIndex->wrongValues = tried.wrong;
+        FrameStats stats = runUntilHeld(key, settings);
+        if (stats.lightIndex) stats.lightIndex->selfTestMs = tried.ms, stats.lightIndex->wrongValues = tried.wrong;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
-        result.stats = {.passes = frame->executor.stats(),
-                        .wallMs = run.wallMs,
-                        .recordMs = frame->executor.recordMs(),
-                        .peakBytes = context.peakBytes(),
-                        .triangles = gpuScene->triangles(),
-                        .lights = gpuScene->lightCount(),
-                        .lightIndex = std::move(run.lightIndex),
-                        .deviceName = context.info().name,
-                        .driver = context.info().driver};
+        stats.passes = frame->executor.stats();
+        stats.recordMs = frame->executor.recordMs();
+        stats.peakBytes = context.peakBytes();
+        stats.triangles = gpuScene->triangles();
+        stats.lights = gpuScene->lightCount();
+        stats.deviceName = context.info().name;
+        stats.driver = context.info().driver;
+        result.stats = std::move(stats);
         result.graph = frame->executor.dot();
         return result;
     }

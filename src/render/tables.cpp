@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "render/lighting/light_tree.shared.h"
 #include "render/lighting/light_volume.shared.h"
 
 namespace luciole::render {
@@ -165,6 +166,48 @@ VolumeTables volumeTables(const Scene& scene) {
         tables.volumes.push_back(constants);
     }
     return tables;
+}
+
+namespace {
+
+/// Encloses whatever a light reaches; its radius is that of everything where there is no telling.
+vec4 reachOf(const LightConstants& light, const VolumeTables& volumes) {
+    const bool placed = (light.flags & kLightLambertian) != 0;
+    if (light.volume != kNoIndex) {
+        const VolumeConstants& mesh = volumes.volumes[light.volume];
+        return vec4(0.5f * (mesh.low + mesh.high), 0.5f * distance(mesh.low, mesh.high));
+    }
+    if (placed || light.type == kLightDirectional || light.range >= kBoundless) return vec4(0, 0, 0, kBoundless);
+    return boundingBall(lightShape(light));
+}
+
+vec4 enclose(std::span<const vec4> balls) {
+    vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const vec4& ball : balls) {
+        low = min(low, vec3(ball) - ball.w);
+        high = max(high, vec3(ball) + ball.w);
+    }
+    const vec3 center = 0.5f * low + 0.5f * high;
+    float radius = 0;
+    for (const vec4& ball : balls) radius = std::max(radius, distance(center, vec3(ball)) + ball.w);
+    constexpr float kRounding = 1e-6f;  // of the centres and distances, 16 units of roundoff
+    return vec4(center, radius + kRounding * (radius + length(center)));
+}
+
+}  // namespace
+
+std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volumes) {
+    std::vector<vec4> balls, tree;
+    for (const LightConstants& light : lights.sources) balls.push_back(reachOf(light, volumes));
+    constexpr size_t kFan = 1 << kTreeBits;
+    for (uint32_t level = 1; level <= kTreeLevels; ++level) {
+        std::vector<vec4> parents;
+        for (size_t i = 0; i < balls.size(); i += kFan)
+            parents.push_back(enclose(std::span(balls).subspan(i, std::min(kFan, balls.size() - i))));
+        tree.insert(tree.end(), parents.begin(), parents.end());
+        balls = std::move(parents);
+    }
+    return tree;
 }
 
 uint32_t lightFeatures(const std::vector<Light>& lights) {

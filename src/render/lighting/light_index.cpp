@@ -7,7 +7,9 @@
 
 #include "render/lighting/forward.hpp"
 #include "render/lighting/light_index_self_test.hpp"
+#include "render/lighting/light_texels.shared.h"
 #include "render/lighting/light_volumes.hpp"
+#include "render/lighting/prefix_sum.hpp"
 
 namespace luciole::render {
 
@@ -226,14 +228,13 @@ void addTables(FrameGraph& graph, Indexing& x) {
     const uint32_t rows = tableRows(x);
     const auto classes =
         (in.constants[kConstantLights] & kUsesLinks) != 0 ? uint32_t(in.scene.objectClasses().objectOfClass.size()) : 1;
-    const bool all = (in.constants[kConstantLights] & (kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes |
-                                                       kUsesContributions | kUsesLambertian | kCountsLights)) != 0;
+    const bool all = texelsOfLight(in.constants[kConstantLights]) > 2;
     const auto image = [&](const char* name, uint32_t blocks) {
         return graph.createImage(name, {vk::Format::eR32G32B32A32Sfloat, {256, rows * blocks}});
     };
     x.tables = {image("light-table.positions", 1), image("light-table.colors", classes)};
     if (all)
-        for (const char* name : {"light-table.directions", "light-table.kinds", "light-table.functions"})
+        for (const char* name : {"light-table.directions", "light-table.kinds", "light-table.rows"})
             x.tables.push_back(image(name, 1));
     const BufferId objects = graph.createConstantBuffer("light-table.objects", in.scene.objectClasses().objectOfClass);
     std::vector<uint32_t> constants = in.constants;
@@ -328,8 +329,8 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
             const auto& rounds = x.plan.sets[s];
             const IndexRound round = r < rounds.size() ? rounds[r] : IndexRound{};
             addIndexPasses(graph, x, round, images[s]);
-            if (in.lightIndex && !x.layout.sorted && !in.attempt.report) addSaturated(graph, x);
-            if (in.lightIndex && in.attempt.report) {
+            if (in.report && !x.layout.sorted && !in.attempt.report) addSaturated(graph, x);
+            if (in.report && in.attempt.report) {
                 std::vector<shared::LightSlice> slices;
                 if (!round.empty()) slices.push_back(round.front().slice);
                 if (x.layout.sorted) slices.clear();  // none of those that were drawn is lost
@@ -348,12 +349,10 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
     const LightingInputs& in = x.in;
     const vk::Extent2D extent = graph.descOf(x.depth).extent;
     const uint32_t pixels = extent.width * extent.height;
-    const uint32_t scanGroups =
-        (pixels + shared::kScanGroup * shared::kScanPixels - 1) / (shared::kScanGroup * shared::kScanPixels);
     const BufferId counts = graph.createBuffer("light-index.counts", pixels * 4ull),
                    offsets = graph.createBuffer("light-index.offsets", (pixels + 1) * 4ull);
-    const BufferId sums = graph.createBuffer("light-index.sums", scanGroups * 4ull),
-                   entries = graph.createBuffer("light-index.entries", capacity * 4);
+    const BufferId entries = graph.createBuffer("light-index.entries", capacity * 4);
+    const BufferId size = addKnownSize(graph, pixels);
     const auto indexed = uint32_t(x.plan.order.size()) - x.plan.rest.count;
     const std::string name = in.phase + "light-indexed.";
     const auto addRaster = [&](const std::string& what, shared::LightSlice slice) {
@@ -377,20 +376,13 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
         const shared::LightSlice slice{from, to - from};
         addZero(graph, name + "zero", counts);
         addRaster("count", slice);
-        for (uint32_t stage = 0; stage < 3; ++stage) {
-            auto pass = graph.addPass(name + std::array{"sums", "places", "offsets"}[stage]);
-            pass.read(counts, Access::computeStorageRead, shared::kIndexCounts)
-                .update(x.counters, Access::computeStorageWrite, shared::kIndexEntries);
-            stage == 0 ? pass.write(sums, Access::computeStorageWrite, 0)
-                             .write(offsets, Access::computeStorageWrite, shared::kIndexOffsets)
-                       : pass.update(sums, Access::computeStorageWrite, 0)
-                             .update(offsets, Access::computeStorageWrite, shared::kIndexOffsets);
-            std::vector<uint32_t> constants = in.constants;
-            constants.insert(constants.end(), {stage, x.layout.overlap});
-            pass.record([constants, groups = stage == 1 ? 1 : scanGroups](PassContext& context) {
-                context.dispatch("render/lighting/light_index_scan.comp", constants, groups);
-            });
-        }
+        addPrefixSum(graph, name,
+                     {.counts = counts,
+                      .places = offsets,
+                      .result = x.counters,
+                      .most = pixels,
+                      .size = size,
+                      .capacity = x.layout.overlap});
         addRaster("fill", slice);
         graph.addPass(name + "sort")
             .read(offsets, Access::computeStorageRead, shared::kIndexOffsets)
@@ -471,16 +463,19 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     const uint64_t entries = in.attempt.entries ? in.attempt.entries : uint64_t(extent.width) * extent.height * 8;
     if (!list && settings.lidrTables == LidrTables::textures) addTables(graph, x);
     list ? addLists(graph, x, sum, in.attempt.slices, entries) : addImages(graph, x, sum);
-    if (!in.lightIndex) return;
+    if (!in.report) return;
 
-    LightIndexFrame& frame = *in.lightIndex;
-    frame.layout = layout;
-    frame.attempt = in.attempt;
+    LightIndexFrame frame{.layout = layout,
+                          .attempt = in.attempt,
+                          .drops = x.plan.dropped.count > 0,
+                          .onOverflow = settings.onOverflow,
+                          .largestBuffer = in.largestBuffer};
     frame.attempt.list = list;
     frame.attempt.entries = entries;
+    if (in.attempt.report)
+        for (const shared::LightConstants& light : in.scene.lights().sources) frame.sceneIndices.push_back(light.sceneIndex);
     graph.output(x.counters);
-    frame.counters = x.counters;
-    for (uint32_t i = 0; i < x.plan.dropped.count; ++i) frame.dropped.push_back(x.plan.order[x.plan.dropped.first + i]);
+    in.report->counters = x.counters;
     frame.stats.fellBack = list && settings.lidrPacking != LidrPacking::list;
     frame.stats.rounds = list ? in.attempt.slices : uint32_t(x.plan.rounds());
     frame.stats.withoutIndex = x.plan.rest.count;
@@ -496,6 +491,9 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
                                      : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) *
                                            x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
     }
+    in.report->judge = [frame = std::move(frame)](std::span<const uint32_t> counters, FrameStats& stats) {
+        return judge(frame, counters, stats.lightIndex.emplace());
+    };
 }
 
 LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {

@@ -2,6 +2,7 @@
 #ifndef LUCIOLE_LIGHT_INDEX_SHARED_H
 #define LUCIOLE_LIGHT_INDEX_SHARED_H
 #include "render/lighting/light_volume.shared.h"
+#include "render/lighting/prefix_sum.shared.h"
 SHARED_BEGIN
 
 // How light indices lie in the channels of the index images. Index i stands for light i - 1 of the table, 0 for none.
@@ -63,18 +64,14 @@ SHARED_FN uint indexShapeOf(ViewConstants view, LightConstants light, LightShape
 }
 
 // Counters of a frame.
-const uint kCounterPixels = 0u;   // over capacity
-const uint kCounterPairs = 1u;    // of a light and a pixel, over capacity
-const uint kCounterMost = 2u;     // lights at one pixel
-const uint kCounterEntries = 3u;  // of the lists
-const uint kCounterCount = 4u;
+const uint kCounterPixels = kResultOver;     // over capacity
+const uint kCounterPairs = kResultExcess;    // of a light and a pixel, over capacity
+const uint kCounterMost = kResultMost;       // lights at one pixel
+const uint kCounterEntries = kResultTotal;   // of the lists
+const uint kCounterCount = kResultCount;
 
 // What a light lost, after the counters: pairs, then its radiance in 2^-16, low and high word.
 const uint kLostWords = 3u;
-
-// light_index_scan.comp
-const uint kScanGroup = 256u;
-const uint kScanPixels = 32u;  // of one invocation
 
 SHARED_END
 #endif

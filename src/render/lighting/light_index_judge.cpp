@@ -11,12 +11,11 @@ using namespace shared;
 
 namespace {
 
-void tellLost(std::span<const uint32_t> counters, const GpuScene& scene, LightIndexStats& stats) {
-    for (uint32_t i = 0; i < scene.lightCount(); ++i) {
-        const uint32_t* words = &counters[kCounterCount + size_t(i) * kLostWords];
+void tellLost(std::span<const uint32_t> counters, const LightIndexFrame& frame, LightIndexStats& stats) {
+    for (size_t i = 0; i < frame.sceneIndices.size(); ++i) {
+        const uint32_t* words = &counters[kCounterCount + i * kLostWords];
         if (words[0] == 0) continue;
-        stats.lost.push_back(
-            {scene.lights().sources[i].sceneIndex, words[0], (double(words[1]) + 4294967296.0 * words[2]) / 65536});
+        stats.lost.push_back({frame.sceneIndices[i], words[0], (double(words[1]) + 4294967296.0 * words[2]) / 65536});
         stats.pairsOver += words[0];
     }
     std::ranges::sort(stats.lost, {}, &LightIndexStats::Lost::light);
@@ -24,17 +23,16 @@ void tellLost(std::span<const uint32_t> counters, const GpuScene& scene, LightIn
 
 }  // namespace
 
-std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters,
-                                       const RenderSettings& settings, const GpuScene& scene, uint64_t largestBuffer,
-                                       LightIndexStats& stats) {
+std::optional<LightingAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters,
+                                     LightIndexStats& stats) {
     stats = frame.stats;
-    LightIndexAttempt next = frame.attempt;
+    LightingAttempt next = frame.attempt;
     if (frame.attempt.list) {
         stats.listEntries = counters[kCounterEntries];
         if (stats.listEntries > frame.attempt.entries) {
             // A quarter more, so that a moving view does not ask for more each time.
             next.entries = stats.listEntries + stats.listEntries / 4;
-            if (next.entries * 4 > largestBuffer) next.slices *= 2, next.entries = largestBuffer / 4;
+            if (next.entries * 4 > frame.largestBuffer) next.slices *= 2, next.entries = frame.largestBuffer / 4;
             return next;
         }
         if (frame.attempt.slices == 1) {
@@ -45,14 +43,14 @@ std::optional<LightIndexAttempt> judge(const LightIndexFrame& frame, std::span<c
     }
     stats.pixelsOver = counters[kCounterPixels];
     if (frame.attempt.report)
-        tellLost(counters, scene, stats);
-    else if (stats.pixelsOver > 0 || !frame.dropped.empty()) {
-        next.list = settings.onOverflow == OnOverflow::exact;
+        tellLost(counters, frame, stats);
+    else if (stats.pixelsOver > 0 || frame.drops) {
+        next.list = frame.onOverflow == OnOverflow::exact;
         next.report = !next.list;
         next.entries = 0;
         return next;
     }
-    if (settings.onOverflow == OnOverflow::fail && stats.pairsOver > 0)
+    if (frame.onOverflow == OnOverflow::fail && stats.pairsOver > 0)
         throw Error(ErrorKind::limit,
                     fmt::format("light-indexed: expected at most {} lights a pixel of the {} that {} tells apart, got "
                                 "more at {} pixels: "

@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <luciole/renderer.hpp>
@@ -9,15 +12,21 @@
 
 namespace luciole::render {
 
-struct LightIndexFrame;
-
-/// What light-indexed rendering makes of a frame; the one after another where the last did not hold all lights.
-struct LightIndexAttempt {
-    bool list = false;     ///< lists instead of what the settings say
-    bool report = false;   ///< finds out which lights are lost
+/// How a technique goes about a frame; the one after another where the last did not hold all lights.
+struct LightingAttempt {
+    bool list = false;     ///< light-indexed: lists instead of what the settings say
+    bool report = false;   ///< light-indexed: finds out which lights are lost
     uint32_t slices = 1;   ///< of the lights, a set of lists each
     uint64_t entries = 0;  ///< that the lists have room for; 0: as many as usual
-    bool operator==(const LightIndexAttempt&) const = default;
+    bool operator==(const LightingAttempt&) const = default;
+};
+
+/// What a technique that may have to try again says of a frame.
+struct LightingReport {
+    std::optional<frame::BufferId> counters;
+    /// Told what the frame has counted there. Adds to the statistics. \return the next attempt, if this one did not do
+    /// \throws Error(limit) if lights were lost that must not be
+    std::function<std::optional<LightingAttempt>(std::span<const uint32_t> counters, FrameStats& stats)> judge;
 };
 
 /// What every lighting technique gets. It knows the G-buffer and the light tables and no other technique.
@@ -29,8 +38,9 @@ struct LightingInputs {
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
-    LightIndexAttempt attempt = {};
-    LightIndexFrame* lightIndex = nullptr;  ///< what light-indexed rendering says of the frame; null while counting
+    LightingAttempt attempt = {};
+    uint64_t largestBuffer = 1ull << 27;  ///< bytes that a shader can see of one
+    LightingReport* report = nullptr;     ///< null while counting
     frame::BufferId counts = {};      ///< with kCountsLights: what forward passes count in (forward.glsl)
 
     bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }
@@ -53,6 +63,7 @@ struct LightingTechnique {
     bool forward = false;  ///< colours surfaces while it draws them: no G-buffer
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
     bool samples = forward;  ///< takes any number of samples a pixel
+    bool whole = false;   ///< deferred: sets `sum` to all the light there is, surfaces that blend included
     bool onHost = false;  ///< the host looks at each light, so that none can be made on the device
 };
 
@@ -78,6 +89,10 @@ void addInitialLight(frame::FrameGraph& graph, const LightingInputs& in, frame::
 void addLightIndexed(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addLightPrepass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardMultipass(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addTiled(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addTiledPoints(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addClustered(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addClusteredForward(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);

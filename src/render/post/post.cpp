@@ -124,14 +124,14 @@ frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighti
     counting.constants[shared::kConstantLights] |= shared::kCountsLights;
     counting.phase = "counting.";
     counting.attempt.report = false;
-    counting.lightIndex = nullptr;
+    counting.report = nullptr;
     graph.addPass("counting.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     counting.counts = graph.createBuffer("counts.forward", uint64_t(extent.width) * extent.height * shared::kForwardCounters * 4);
     graph.addPass("counting.zero").write(counting.counts, Access::transferWrite).record([buffer = counting.counts](frame::PassContext& pass) {
         pass.commands.fillBuffer(pass.buffer(buffer), 0, VK_WHOLE_SIZE, 0);
     });
     technique.add(graph, counting, counts);
-    if (!technique.forward) addBlendedLoop(graph, counting, counts);
+    if (!technique.forward && !technique.whole) addBlendedLoop(graph, counting, counts);
     graph.addPass("counting.sum")
         .read(counting.counts, Access::fragmentStorageRead, shared::kForwardCounts)
         .update(counts, Access::colorBlend)

@@ -20,9 +20,11 @@ layout(set = 0, binding = 7, scalar) uniform UniformLights { LightConstants unif
 layout(set = 0, binding = 8, scalar) readonly buffer Sources { LightConstants sources[]; };
 layout(set = 0, binding = 9, scalar) readonly buffer Volumes { VolumeConstants volumes[]; };
 layout(set = 0, binding = 10, scalar) readonly buffer VolumeVertices { vec3 volumeVertices[]; };
+layout(set = 0, binding = 11) uniform sampler2D lightTree;
 
 LightConstants lightAt(uint index) {
     if ((kLights & kUsesUniformLights) != 0u) return uniformLights[index];
     return lights[index];
 }
+LightConstants lightInView(uint index) { return lightAt(index); }
 #endif
