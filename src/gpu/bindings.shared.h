@@ -7,7 +7,7 @@ const uint kFrameSet = 0u;
 const uint kFrameView = 0u;       // uniform buffer: ViewConstants
 const uint kFrameObjects = 1u;    // storage buffers from here ...
 const uint kFrameMaterials = 2u;
-const uint kFrameSurfaces = 3u;
+const uint kFrameUniformMaterials = 3u;  // uniform buffer: the first materials once more
 const uint kFrameLights = 4u;
 const uint kFrameLinks = 5u;
 const uint kFrameFunctions = 6u;  // sampled image: the function table
@@ -23,7 +23,7 @@ const uint kPassSampledCount = 16u;
 const uint kPassStorage = 16u;      // storage buffers, likewise
 const uint kPassStorageCount = 6u;
 
-const uint kMaterialSet = 2u;     // 5 sampled images
+const uint kMaterialSet = 2u;     // 5 sampled images, then a uniform buffer: DrawnMaterial
 const uint kMaterialTextures = 5u;
 
 const uint kPushBytes = 128u;

@@ -23,7 +23,9 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     using namespace shared;
     std::vector<vk::DescriptorSetLayoutBinding> frame, pass, material;
     add(frame, kFrameView, 1, Type::eUniformBuffer);
-    add(frame, kFrameObjects, kFrameFunctions - kFrameObjects, Type::eStorageBuffer);
+    add(frame, kFrameObjects, kFrameUniformMaterials - kFrameObjects, Type::eStorageBuffer);
+    add(frame, kFrameUniformMaterials, 1, Type::eUniformBuffer);
+    add(frame, kFrameLights, kFrameFunctions - kFrameLights, Type::eStorageBuffer);
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
     add(frame, kFrameUniformLights, 1, Type::eUniformBuffer);
     add(frame, kFrameSources, kFrameVolumeVertices - kFrameSources + 1, Type::eStorageBuffer);
@@ -34,6 +36,7 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     for (auto& binding : pass) binding.pImmutableSamplers = &texelSampler;
     add(pass, kPassStorage, kPassStorageCount, Type::eStorageBuffer);
     add(material, 0, kMaterialTextures, Type::eCombinedImageSampler);
+    add(material, kMaterialTextures, 1, Type::eUniformBuffer);
     std::vector<vk::raii::DescriptorSetLayout> layouts;
     for (const auto* bindings : {&frame, &pass, &material}) layouts.push_back(makeLayout(context, *bindings));
     return layouts;

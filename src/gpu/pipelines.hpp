@@ -51,7 +51,7 @@ std::vector<vk::DescriptorSet> allocateSets(const Context& context, const vk::ra
 /// Pipelines by key, made when first asked for. All share one layout, so that sets stay bound across pipelines:
 ///   set 0  the frame: tables that every pass may read (kFrame* below)
 ///   set 1  the pass: filled by the frame graph from what the pass declares
-///   set 2  the material's textures, geometry passes only
+///   set 2  the material's textures and constants, geometry passes only
 /// and 128 bytes of push constants, the least that Vulkan guarantees.
 class Pipelines {
 public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <luciole/error.hpp>
 #include <numeric>
 #include <tuple>
@@ -113,7 +114,6 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     frameSet_ = frameSets[0];
     bounceSet_ = frameSets[1];
     writeFrameSets();
-    for (const Material& material : scene.materials) equations_ |= 1u << uint32_t(material.equation);
     triangles_ = triangleCount(scene);
 }
 
@@ -162,6 +162,11 @@ void GpuScene::uploadObjects(const Scene& scene) {
     objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eStorageBuffer);
 }
 
+size_t GpuScene::drawnMaterialStride() const {
+    const size_t alignment = context_.limits().minUniformBufferOffsetAlignment;
+    return (sizeof(DrawnMaterial) + alignment - 1) / alignment * alignment;
+}
+
 void GpuScene::uploadMaterials(const Scene& scene) {
     std::vector<float> meshColorBound;
     for (const Mesh& mesh : scene.meshes) {
@@ -173,17 +178,24 @@ void GpuScene::uploadMaterials(const Scene& scene) {
     for (const Object& object : scene.objects)
         colorBound[object.material] = std::max(colorBound[object.material], meshColorBound[object.mesh]);
 
+    const size_t drawnStride = drawnMaterialStride();
+    std::vector<std::byte> drawnMaterials(scene.materials.size() * drawnStride);
     // Row 0 is "no surface": no equation, no light.
-    std::vector<SurfaceConstants> surfaces(1);
     std::vector<MaterialConstants> materials(1);
     materials[0].equation = kNoIndex;
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const MaterialTables tables = materialTables(scene.materials[i], colorBound[i]);
-        surfaces.push_back(tables.surface);
         materials.push_back(tables.material);
+        equations_ |= 1u << tables.material.equation;
+        if (tables.material.cs0Scale != 1 || tables.material.cs1Scale != 1) equations_ |= kMaterialsScale;
+        if (tables.material.kEmissive != 0) equations_ |= kMaterialsEmit;
+        const DrawnMaterial drawn{tables.surface, tables.material};
+        std::memcpy(&drawnMaterials[i * drawnStride], &drawn, sizeof drawn);
     }
-    surfaces_ = gpu::uploadBuffer(context_, "surfaces", surfaces, Usage::eStorageBuffer);
-    materials_ = gpu::uploadBuffer(context_, "materials", materials, Usage::eStorageBuffer);
+    drawnMaterials_ = gpu::uploadBuffer(context_, "drawn materials", drawnMaterials, Usage::eUniformBuffer);
+    if (materials.size() <= kUniformMaterials && kUniformMaterials * sizeof(MaterialConstants) <= context_.limits().maxUniformBufferRange) equations_ |= kMaterialsFit;
+    materials.resize(std::max<size_t>(materials.size(), kUniformMaterials));  // never smaller than the uniform block
+    materials_ = gpu::uploadBuffer(context_, "materials", materials, Usage::eStorageBuffer | Usage::eUniformBuffer);
 }
 
 void GpuScene::uploadTextures(const Scene& scene) {
@@ -212,7 +224,7 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
     const auto count = uint32_t(scene.materials.size());
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 4},
                                             {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1)},
-                                            {vk::DescriptorType::eUniformBuffer, 4}};
+                                            {vk::DescriptorType::eUniformBuffer, count + 6}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
                                                          .pPoolSizes = sizes});
@@ -238,6 +250,13 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = infos.data()},
             nullptr);
+        const vk::DescriptorBufferInfo constants{*drawnMaterials_.handle, i * drawnMaterialStride(), sizeof(DrawnMaterial)};
+        context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = sets[i],
+                                                                      .dstBinding = kMaterialTextures,
+                                                                      .descriptorCount = 1,
+                                                                      .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                                      .pBufferInfo = &constants},
+                                               nullptr);
         drawMaterials_.push_back({uint32_t(material.surface), present, uint32_t(material.equation), material.alphaMode == AlphaMode::mask,
                                   material.doubleSided, sets[i]});
     }
@@ -309,10 +328,11 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
     };
     const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
     const auto uniformLightBytes = std::min<vk::DeviceSize>(kUniformLights * sizeof(LightConstants), context_.limits().maxUniformBufferRange);
+    const auto uniformMaterialBytes = std::min<vk::DeviceSize>(kUniformMaterials * sizeof(MaterialConstants), context_.limits().maxUniformBufferRange);
     const Binding bindings[] = {{kFrameView, view, uniform, VK_WHOLE_SIZE},
                                 {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameSurfaces, *surfaces_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameUniformMaterials, *materials_.handle, uniform, uniformMaterialBytes},
                                 {kFrameLights, *lightTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameLinks, *links_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameUniformLights, *lightTable_.handle, uniform, uniformLightBytes},
@@ -348,7 +368,6 @@ void GpuScene::setView(const View& view, const RenderSettings& settings, GBuffer
     viewConstants_.lightCount = lightCount();
     viewConstants_.linkWords = linkWords_;
     viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);
-    viewConstants_.toneMap = uint32_t(settings.toneMap);
     viewConstants_.cullLights = settings.cullLights;
     viewConstants_.slack = viewSlack(view, layout, settings.msaa != Msaa::x1);
     view_.write(std::span<const ViewConstants>(&viewConstants_, 1));
@@ -380,7 +399,7 @@ void GpuScene::bindMeshes(frame::PassContext& pass) const {
 void GpuScene::bindMaterial(frame::PassContext& pass, uint32_t index, const SurfaceShading& shading) const {
     const DrawMaterial& material = drawMaterials_[index];
     std::vector<uint32_t> constants = shading.frame;
-    if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation;
+    if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation | (equations_ & ~(kMaterialsFit - 1));
     constants.insert(constants.end(), {material.surfaceShader, material.masked, material.textures});
     constants.insert(constants.end(), shading.own.begin(), shading.own.end());
     pass.bind({.vertex = "render/geometry/surface.vert",

@@ -121,6 +121,7 @@ private:
     void uploadMeshes(const Scene& scene);
     void uploadObjects(const Scene& scene);
     void uploadMaterials(const Scene& scene);
+    size_t drawnMaterialStride() const;  ///< bytes between those of two materials
     void uploadTextures(const Scene& scene);
     vk::Sampler samplerOf(const Sampler& wanted);
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
@@ -134,7 +135,7 @@ private:
     const gpu::Context& context_;
     gpu::Buffer vertices_, indices_;
     std::vector<MeshRange> meshes_;
-    gpu::Buffer objects_, materials_, surfaces_, links_;
+    gpu::Buffer objects_, materials_, drawnMaterials_, links_;
     gpu::Buffer sources_, lightTable_, volumeTable_, volumeVertices_, volumeIndices_;
     gpu::MappedBuffer view_, bounceView_;
     gpu::Image functions_, lightTree_;

@@ -116,7 +116,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
         technique.add(graph, lighting, radiance);
         addBlendedLoop(graph, lighting, radiance);
     }
-    const frame::ImageId display = addToneMap(graph, radiance, extent);
+    const frame::ImageId display = addToneMap(graph, radiance, extent, key.settings.toneMap);
     FrameOutputs outputs = addOutputs(graph, lighting, radiance, display, extent, key.aovs);
     if (key.counts) outputs.counts = addCounts(graph, lighting, technique);
     return {.key = key, .outputs = outputs, .report = std::move(report), .executor = frame::Executor(context, pipelines, std::move(graph))};
@@ -135,7 +135,6 @@ RenderSettings structureOf(RenderSettings settings) {
     const RenderSettings defaults;
     settings.cullLights = defaults.cullLights;
     settings.exposureEv = defaults.exposureEv;
-    settings.toneMap = defaults.toneMap;
     settings.measure = defaults.measure;
     return settings;
 }

@@ -4,6 +4,6 @@
 
 // The depth set-up pass of alpha-masked surfaces; the others need no fragment shader.
 void main() {
-    const SurfaceConstants surface = surfaces[objects[objectIndex].material];
+    const SurfaceConstants surface = material.surface;
     if (baseColor(surface).a < surface.alphaCutoff) discard;
 }

@@ -31,7 +31,7 @@ vec3 unpackNormal(vec2 stored) {
     const vec2 p = stored * 2.0 - 1.0;
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    return normalize(n);
+    return n * inversesqrt(dot(n, n));
 }
 
 // Calver 2003, "Storing Position": PackPositionForGBuffer. The rasterizer has divided by w and biased x and y already.
@@ -39,8 +39,10 @@ vec3 unpackNormal(vec2 stored) {
 vec3 packPosition(vec4 fragCoord) { return vec3(fragCoord.xy / view.extent, max(fragCoord.z, 1.0 / 65535.0)); }
 // UnPackPositionFromGBuffer.
 vec3 unpackPosition(vec3 stored) {
-    const vec4 p = view.viewFromGBuffer * vec4(stored, 1);
-    return p.xyz / p.w;
+    // The matrix of a camera that looks straight ahead: its other entries are zero.
+    const mat4 m = view.viewFromGBuffer;
+    const float inverseW = 1.0 / (m[2].w * stored.z + m[3].w);
+    return vec3(m[0].x * stored.x + m[3].x, m[1].y * stored.y + m[3].y, m[2].z * stored.z + m[3].z) * inverseW;
 }
 
 // `s.Cs0` and `s.Cs1` already divided by the material's scales.
@@ -77,9 +79,11 @@ Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
         s.Cs1 = t.d.rgb;
         s.objectId = unpackIndex(t.d.w);
     }
-    const MaterialConstants m = materials[s.material];
-    s.Cs0 *= m.cs0Scale;
-    s.Cs1 *= m.cs1Scale;
+    const MaterialConstants m = materialAt(s.material);
+    if (usesMaterials(kMaterialsScale)) {
+        s.Cs0 *= m.cs0Scale;
+        s.Cs1 *= m.cs1Scale;
+    }
     return s;
 }
 #endif

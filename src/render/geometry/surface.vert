@@ -15,7 +15,7 @@ layout(location = 2) out vec3 normalView;
 layout(location = 3) out vec4 tangentView;
 layout(location = 4) out vec4 uv;
 layout(location = 5) out vec4 colorOut;
-layout(location = 6) flat out uint objectIndex;
+layout(location = 6) flat out uvec2 materialAndObject;
 
 invariant gl_Position;  // the depth set-up pass has to give the same depth
 
@@ -30,5 +30,5 @@ void main() {
     tangentView = vec4(viewFromWorld * (mat3(object.worldFromObject) * tangent.xyz), tangent.w * object.tangentSign);
     uv = vec4(uv0, uv1);
     colorOut = color;
-    objectIndex = gl_InstanceIndex;
+    materialAndObject = uvec2(object.material, object.objectId);
 }

@@ -7,13 +7,14 @@ layout(location = 2) in vec3 normalView;
 layout(location = 3) in vec4 tangentView;
 layout(location = 4) in vec4 uv;
 layout(location = 5) in vec4 color;
-layout(location = 6) flat in uint objectIndex;
+layout(location = 6) flat in uvec2 materialAndObject;  // index into the materials, object ID
 
 layout(set = 2, binding = 0) uniform sampler2D textureBaseColor;
 layout(set = 2, binding = 1) uniform sampler2D textureMetallicRoughness;
 layout(set = 2, binding = 2) uniform sampler2D textureNormal;
 layout(set = 2, binding = 3) uniform sampler2D textureOcclusion;
 layout(set = 2, binding = 4) uniform sampler2D textureEmissive;
+layout(set = 2, binding = 5, scalar) uniform Material_ { DrawnMaterial material; };
 
 layout(constant_id = 3) const uint kSurfaceShader = 0u;  // enum SurfaceShader
 layout(constant_id = 4) const uint kMasked = 0u;

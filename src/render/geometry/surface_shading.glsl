@@ -23,8 +23,7 @@ vec3 shadingNormal(SurfaceConstants surface) {
 
 // Cs0 and Cs1 come divided by the scales of MaterialConstants. Discards what the alpha mask cuts out. \param alpha in [0, 1]
 Surface surfaceHere(out float alpha) {
-    const ObjectConstants object = objects[objectIndex];
-    const SurfaceConstants surface = surfaces[object.material];
+    const SurfaceConstants surface = material.surface;
     const vec3 p = HERE(positionObject) * surface.proceduralScale;
     const vec3 width = max(abs(dFdx(positionObject)), abs(dFdy(positionObject))) * surface.proceduralScale;
     vec4 base = baseColor(surface);
@@ -39,8 +38,8 @@ Surface surfaceHere(out float alpha) {
     s.specularBlend = surface.metallic;
     s.roughness = surface.roughness;
     s.occlusion = 1.0;
-    s.material = object.material;
-    s.objectId = object.objectId;
+    s.material = materialAndObject.x;
+    s.objectId = materialAndObject.y;
     if (hasTexture(kTextureMetallicRoughness)) {
         const vec2 roughnessMetallic = sampleTexture(textureMetallicRoughness, surface, kTextureMetallicRoughness).gb;
         s.roughness *= roughnessMetallic.x;

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push { BouncePush push; };
 
 // The share of light that the surface throws back evenly.
 vec3 albedo(Surface s) {
-    const uint equation = materials[s.material].equation;
+    const uint equation = materialAt(s.material).equation;
     if (equation == kEquationMetallicRoughness) return s.Cs0 * (1.0 - s.specularBlend);
     return equation == kEquationShaped ? s.Cs0 : vec3(0);
 }

@@ -55,7 +55,7 @@ void beginSurface() {
     shadingSample = visibleSample();
 #endif
     Surface s = surfaceHere(alpha);
-    const MaterialConstants m = materials[s.material];
+    const MaterialConstants m = material.lit;
     s.Cs0 *= m.cs0Scale;
     s.Cs1 *= m.cs1Scale;
     // As whoever only knows its depth.
@@ -65,7 +65,7 @@ void beginSurface() {
 #else
     s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));
 #endif
-    point = shadingPoint(s);
+    point = shadingPoint(s, m);
     if (kFirst != 0u) sum = initialLight(s, m);
 }
 

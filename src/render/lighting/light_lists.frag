@@ -16,7 +16,7 @@ void main() {
     const Surface s = readSurface(pixel);
     const ShadingPoint p = shadingPoint(s);
     sum = vec4(0);
-    if (kFirst != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materials[s.material]), 1);
+    if (kFirst != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materialAt(s.material)), 1);
     const uvec2 list = listAt(uvec2(pixel), texelFetch(gbufferDepth, pixel, 0).x, kTileSize, kParts);
     for (uint i = list.x; i < list.y; ++i) sum += contribution(p, lightAt(entries[i]));
 }

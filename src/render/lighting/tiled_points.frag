@@ -17,7 +17,7 @@ void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     const ShadingPoint p = shadingPoint(s);
     sum = vec4(0);
-    if (lightsAndFirst.y != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materials[s.material]), 1);
+    if (lightsAndFirst.y != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materialAt(s.material)), 1);
     const uint each = texelsOfLight(kLights);
     [[unroll]] for (uint i = 0u; i < kBatchTexels / 2u; ++i) {
         if (i >= kBatchLights) break;

@@ -77,13 +77,13 @@ Image radianceImage(const frame::Executor& executor, frame::BufferId buffer, uve
 
 }  // namespace
 
-frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent) {
+frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent, ToneMap toneMap) {
     const frame::ImageId display = graph.createImage("display", {kFloat, extent});
     graph.addPass("post.tone-map")
         .read(radiance, Access::fragmentSampled, 0)
         .write(display, Access::colorWrite)
-        .record([](frame::PassContext& pass) {
-            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/post/tone_map.frag"});
+        .record([toneMap](frame::PassContext& pass) {
+            pass.bind({.vertex = "render/shaders/full_screen.vert", .fragment = "render/post/tone_map.frag", .constants = {0, 0, 0, uint32_t(toneMap)}});
             pass.drawFullScreen();
         });
     return display;

@@ -10,7 +10,7 @@
 namespace luciole::render {
 
 /// Phase 3: exposure, tone mapping and sRGB encoding into a picture of floats.
-frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent);
+frame::ImageId addToneMap(frame::FrameGraph& graph, frame::ImageId radiance, vk::Extent2D extent, ToneMap toneMap);
 
 /// The mean of each pixel's samples.
 void addResolve(frame::FrameGraph& graph, frame::ImageId samples, frame::ImageId resolved);

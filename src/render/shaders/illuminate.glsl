@@ -9,7 +9,6 @@
 const float kPi = 3.14159265358979;
 
 bool usesLights(uint bit) { return (kLights & bit) != 0u; }
-bool usesEquation(uint equation) { return (kEquations & (1u << equation)) != 0u; }
 
 // Linear along the function, none between functions (Calver 2003, "Linear Interpolation", the manual method: it is exact
 // where a filter unit keeps 8 bits of the weight). `t` in [0, 1] spans the function's domain.
@@ -98,7 +97,7 @@ Arrival arrivalAt(LightConstants light, vec3 P) {
     if (usesLights(kUsesLocal) && (!usesLights(kUsesDirectional) || light.type != kLightDirectional)) {
         const vec3 toLight = light.position - P;
         const float dist = length(toLight);
-        arrival.L = toLight / max(dist, 1e-6);
+        arrival.L = toLight * (1.0 / max(dist, 1e-6));
         float strength = attenuate(light, dist);
         if (usesLights(kUsesSpot) && light.type == kLightSpot)
             strength *= angularAttenuate(light, -dot(arrival.L, light.direction));
@@ -120,10 +119,10 @@ struct ShadingPoint {
     float smithV;  // the term of Vis that depends on V
 };
 
-ShadingPoint shadingPoint(Surface s) {
+ShadingPoint shadingPoint(Surface s, MaterialConstants m) {
     ShadingPoint p;
     p.s = s;
-    p.m = materials[s.material];
+    p.m = m;
     p.V = view.orthographic != 0u ? vec3(0, 0, 1) : normalize(-s.P);
     const float alpha = max(s.roughness, 0.045) * max(s.roughness, 0.045);
     p.F0 = mix(vec3(0.04), s.Cs0, s.specularBlend);
@@ -133,6 +132,8 @@ ShadingPoint shadingPoint(Surface s) {
     p.smithV = sqrt(p.NoV * p.NoV * (1.0 - p.a2) + p.a2);
     return p;
 }
+
+ShadingPoint shadingPoint(Surface s) { return shadingPoint(s, materialAt(s.material)); }
 
 // Zero, not NaN, for a light that shines straight at the eye.
 vec3 halfVector(vec3 V, vec3 L) {
@@ -182,7 +183,7 @@ vec3 sharesMetallicRoughness(ShadingPoint p, vec3 L, vec2 keep) {
 }
 vec3 shadeMetallicRoughness(ShadingPoint p, LightTerms terms) { return p.diffuse * terms.diffuse + p.F0 * terms.specular + terms.grazing; }
 
-bool hasEquation(ShadingPoint p, uint equation) { return usesEquation(equation) && p.m.equation == equation; }
+bool hasEquation(ShadingPoint p, uint equation) { return isEquation(equation, p.m); }
 
 LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     const Arrival arrival = arrivalAt(light, p.s.P);
@@ -213,7 +214,7 @@ vec3 illuminate(ShadingPoint p, LightConstants light) { return shade(p, lightTer
 // The light that is there before any light: Calver 2003, "Full screen lights", HemisphereEmissiveLightShader.
 vec3 initialLight(Surface s, MaterialConstants m) {
     const vec3 ambience = mix(view.ground, view.sky, 0.5 + 0.5 * dot(s.N, view.upView));
-    const vec3 ambient = m.equation == kEquationMetallicRoughness ? s.Cs0 * s.occlusion : m.kAmbient;
-    return ambient * ambience + m.kEmissive * s.Cs1;
+    const vec3 ambient = isEquation(kEquationMetallicRoughness, m) ? s.Cs0 * s.occlusion : m.kAmbient;
+    return ambient * ambience + (usesMaterials(kMaterialsEmit) ? m.kEmissive * s.Cs1 : vec3(0));
 }
 #endif

@@ -20,7 +20,6 @@ struct ViewConstants {
     uint orthographic;
     vec2 extent;           // pixels
     float exposure;        // factor
-    uint toneMap;
     vec4 slack;            // light_volume.shared.h, slackOf
     vec2 clipScale;        // clipFromView[0][0] and -clipFromView[1][1]
     float zNear;
@@ -36,7 +35,7 @@ struct ObjectConstants {
     uint objectId;
 };
 
-// What the geometry phase needs of a material. Set 0, kFrameSurfaces.
+// What the geometry phase needs of a material.
 const uint kTextureBaseColor = 0u;
 const uint kTextureMetallicRoughness = 1u;
 const uint kTextureNormal = 2u;
@@ -79,6 +78,13 @@ struct MaterialConstants {
     uint equation;
     uint diffuseFunction;   // Fa: row of the function table
     uint specularFunction;  // Fb
+};
+const uint kUniformMaterials = 1792u;  // of 36 bytes in 64 KiB
+
+// The material that a draw has. Set 2, uniform: its members lie at offsets that a shader knows, which loads them once for many pixels.
+struct DrawnMaterial {
+    SurfaceConstants surface;
+    MaterialConstants lit;
 };
 
 // One light. In world space: set 0, kFrameSources. In view space, made anew each frame: set 0, kFrameLights.
@@ -130,7 +136,10 @@ const uint kFunctionSamples = 4097u;
 
 // Specialization constants that all passes of a frame share.
 const uint kConstantLayout = 0u;     // enum GBufferLayout
-const uint kConstantEquations = 1u;  // bit e: some material uses equation e
+const uint kConstantEquations = 1u;  // bit e: some material uses equation e; and what else there is of materials:
+const uint kMaterialsFit = 256u;     // all fit into a uniform buffer, the faster way to read them
+const uint kMaterialsScale = 512u;   // some have a cs0Scale or cs1Scale other than 1
+const uint kMaterialsEmit = 1024u;   // some have a kEmissive other than 0
 const uint kConstantLights = 2u;     // bits kUses*
 const uint kUsesLocal = 1u;          // a point or spot light
 const uint kUsesDirectional = 2u;
