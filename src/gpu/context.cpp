@@ -268,6 +268,7 @@ void Context::useQueue(vk::raii::Queue queue, uint32_t queueFamily) {
     limits_ = physical_.getProperties().limits;
     const vk::PhysicalDeviceFeatures features = physical_.getFeatures();
     feedbackLoops_ = !borrowed_ && hasFeedbackLoops(physical_);  // no host is asked to enable the extension
+    if (!borrowed_ && features.largePoints) largestPoint_ = limits_.pointSizeRange[1];
     sampleCounts_ = vk::SampleCountFlagBits::e1;
     if (features.sampleRateShading && limits_.standardSampleLocations)
         sampleCounts_ |= limits_.framebufferColorSampleCounts & limits_.framebufferDepthSampleCounts &

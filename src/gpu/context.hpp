@@ -36,6 +36,9 @@ public:
     const vk::raii::CommandPool& commandPool() const { return commandPool_; }
     bool labels() const { return labels_; }
     bool feedbackLoops() const { return feedbackLoops_; }  ///< a pass may sample the colour attachment that it writes
+    float largestPoint() const { return largestPoint_; }  ///< pixels; 1 where points have no size
+    /// Values that a vertex shader can pass on to a fragment shader, the position included.
+    uint32_t passedOn() const { return std::min(limits_.maxVertexOutputComponents, limits_.maxFragmentInputComponents + 4); }
     vk::SampleCountFlags sampleCounts() const { return sampleCounts_; }  ///< of colour and depth, with shading by sample
     vk::FormatProperties formatProperties(vk::Format format) const { return physical_.getFormatProperties(format); }
     uint64_t maxBufferBytes() const { return maxBufferBytes_; }
@@ -100,6 +103,7 @@ private:
     DeviceInfo info_;
     bool labels_ = false;
     bool feedbackLoops_ = false;
+    float largestPoint_ = 1;
     vk::SampleCountFlags sampleCounts_;
     uint64_t maxBufferBytes_ = 0;
     uint64_t timestampMask_ = 0;

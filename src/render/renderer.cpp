@@ -16,12 +16,15 @@
 #include "render/lighting/forward.hpp"
 #include "render/lighting/light_index.hpp"
 #include "render/lighting/light_index_self_test.hpp"
+#include "render/lighting/light_lists.hpp"
+#include "render/lighting/tiled_points.shared.h"
 #include "render/lighting/techniques.hpp"
 #include "render/post/post.hpp"
 
 namespace luciole {
 
 using frame::Access;
+using shared::kPassedOn;
 
 namespace render {
 namespace {
@@ -148,6 +151,11 @@ void checkSettings(const gpu::Context& context, const RenderSettings& settings) 
     if (settings.bounceLight != "none" && (technique.onHost || sorts))
         throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none with lighting {}, where the host looks at each light: the lights "
                                                   "of a bounce are made on the device", settings.lighting + (sorts ? " and a packing that sorts" : "")));
+    const uint32_t tileSize = tileSizeOf(settings);
+    if (technique.points && (context.largestPoint() < float(tileSize) || context.passedOn() < kPassedOn))
+        throw Error(ErrorKind::usage, fmt::format("lighting: expected another technique than {}, which needs points of {} pixels and {} values passed on to "
+                                                  "fragment shaders; {} has {} and {}", settings.lighting, tileSize, kPassedOn,
+                                                  context.info().name, context.largestPoint(), context.passedOn()));
     if (settings.msaa == Msaa::x1) return;
     if (!technique.samples)
         throw Error(ErrorKind::usage, fmt::format("msaa: expected 1 with lighting {}, which stores one surface a pixel; techniques that "

@@ -197,14 +197,17 @@ vec4 enclose(std::span<const vec4> balls) {
 }  // namespace
 
 std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volumes) {
-    std::vector<vec4> balls, tree;
+    std::vector<vec4> balls;
     for (const LightConstants& light : lights.sources) balls.push_back(reachOf(light, volumes));
-    constexpr size_t kFan = 1 << kTreeBits;
+    constexpr size_t kFan = 1 << kTreeBits, kBelowRoot = 1 << (kTreeBits * kTreeLevels);
+    std::vector<vec4> tree((balls.size() + kBelowRoot - 1) / kBelowRoot * treeSize(kTreeLevels));
     for (uint32_t level = 1; level <= kTreeLevels; ++level) {
         std::vector<vec4> parents;
-        for (size_t i = 0; i < balls.size(); i += kFan)
+        for (size_t i = 0; i < balls.size(); i += kFan) {
+            const auto light = uint32_t(parents.size() << (kTreeBits * level));
             parents.push_back(enclose(std::span(balls).subspan(i, std::min(kFan, balls.size() - i))));
-        tree.insert(tree.end(), parents.begin(), parents.end());
+            tree[treePlace(level, light)] = parents.back();
+        }
         balls = std::move(parents);
     }
     return tree;

@@ -39,8 +39,8 @@ struct VolumeTables {
 };
 VolumeTables volumeTables(const Scene& scene);
 
-/// The hierarchy over the lights (light_tree.shared.h): the balls of levels 1, 2, ..., centre and radius, in world space. Lights placed on
-/// the device may be anywhere: their nodes enclose everything, as do those of unbounded ones.
+/// The hierarchy over the lights (light_tree.shared.h), in world space. Lights placed on the device may be anywhere: their nodes enclose
+/// everything, as do those of unbounded ones.
 std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volumes);
 
 /// Triangles of the convex meshes of all levels of detail, one level after the other (light_volume.shared.h),

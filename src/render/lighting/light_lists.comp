@@ -33,6 +33,7 @@ struct Cell {
     vec2 low, high;
     vec2 inverseLow, inverseHigh;  // 1 / sqrt(1 + slope^2)
     float near, far;
+    float slack;                   // that a surface in here may seem to be away from where it is
     vec3 boxLow, boxHigh;          // x, y, distance
     uint slices;                   // those that count, from the tile's farthest on; of a cluster all
     float farthest;                // depth
@@ -55,13 +56,15 @@ Cell cellOf(uint tileIndex, uint slice) {
         if (slice < kSlices - 1u) depths.y = min(depths.y, sliceEnd(first + 1u));
         cell.slices = ~0u;
     }
-    // What distances round is within the slack of the lights' shapes.
     cell.near = distanceOf(depths.y);
     cell.far = distanceOf(depths.x);
     const vec2 atNear = view.orthographic != 0u ? vec2(1) : vec2(cell.near);
     const vec2 atFar = view.orthographic != 0u ? vec2(1) : vec2(cell.far);
     cell.boxLow = vec3(min(cell.low * atNear, cell.low * atFar), cell.near);
     cell.boxHigh = vec3(max(cell.high * atNear, cell.high * atFar), cell.far);
+    // As slackOf, which looks from the lights' side, with what distances round here.
+    const float farthest = length(vec3(max(abs(cell.boxLow.xy), abs(cell.boxHigh.xy)), cell.far));
+    cell.slack = view.slack.x + farthest * (view.slack.y + farthest * (view.slack.z + view.slack.w / max(view.zNear, cell.near)));
     return cell;
 }
 
@@ -70,7 +73,7 @@ float depthAt(float distance_) {
     return clamp(clip.x / clip.y, 0.0, 1.0);
 }
 
-// Whether a ball touches the cell's box, the sides of its frustum, and a slice that counts. \param ball view space
+// Whether a ball touches the cell's box and the sides of its frustum. \param ball view space
 bool touches(Cell cell, vec4 ball) {
     const vec3 center = vec3(ball.x, -ball.y, -ball.z);
     const vec3 away = center - clamp(center, cell.boxLow, cell.boxHigh);
@@ -80,15 +83,16 @@ bool touches(Cell cell, vec4 ball) {
         const vec2 beyondHigh = (center.xy - cell.high * center.z) * cell.inverseHigh;
         hit = hit && max(max(beyondLow.x, beyondLow.y), max(beyondHigh.x, beyondHigh.y)) <= ball.w;
     }
-    if (!kClustered) {
-        // A little more than the ball, for what depths round.
-        const float near = max(center.z - ball.w, cell.near) * 0.99999;
-        const float far = min(center.z + ball.w, cell.far) * 1.00001;
-        const uint last = sliceOf(max(depthAt(near), cell.farthest), cell.farthest);
-        const uint first = sliceOf(max(depthAt(far), cell.farthest), cell.farthest);
-        hit = hit && (cell.slices & bitfieldInsert(0u, ~0u, int(first), int(last + 1u - min(first, last)))) != 0u;
-    }
     return hit;
+}
+
+// Whether a ball touches a slice that counts. A little more than the ball, for what depths round.
+bool touchesSlices(Cell cell, vec4 ball) {
+    const float near = max(-ball.z - ball.w, cell.near) * 0.99999;
+    const float far = min(-ball.z + ball.w, cell.far) * 1.00001;
+    const uint last = sliceOf(max(depthAt(near), cell.farthest), cell.farthest);
+    const uint first = sliceOf(max(depthAt(far), cell.farthest), cell.farthest);
+    return (cell.slices & bitfieldInsert(0u, ~0u, int(first), int(last + 1u - min(first, last)))) != 0u;
 }
 
 // Whether a cone's inside comes as near to the cell as the ball around its box is large.
@@ -101,22 +105,26 @@ bool coneTouches(Cell cell, LightShape shape) {
     return across * cos(shape.angle) - along * sin(shape.angle) <= radius * 1.0001;
 }
 
+// What floats round of distances from a ball.
+float rounding(vec3 center, float radius) { return 4e-6 * (abs(center.x) + abs(center.y) + abs(center.z) + radius); }
+
 bool lightTouches(Cell cell, uint index) {
     const LightConstants light = lightInView(index);
-    if (light.volume != kNoIndex) return touches(cell, volumeBall(view, volumes[light.volume]));
+    if ((kLights & kUsesVolumes) != 0u && light.volume != kNoIndex) return touches(cell, volumeBall(view, volumes[light.volume]));
     if (light.type == kLightDirectional || light.range >= kBoundless) return true;
-    const LightShape shape = enclosingShape(light);
-    bool hit = touches(cell, boundingBall(shape));
+    const LightShape plain = shapeOf(light);
+    const LightShape shape = inflate(plain, cell.slack + rounding(plain.apex, plain.radius));
+    const vec4 ball = boundingBall(shape);
+    bool hit = touches(cell, ball);
+    if (!kClustered) hit = hit && touchesSlices(cell, ball);
     if ((kLights & kUsesSpot) != 0u && light.type == kLightSpot) hit = hit && coneTouches(cell, shape);
     return hit;
 }
 
-bool nodeTouches(Cell cell, uint level, uint node) {
-    const uint texel = treeFirst(level, view.lightCount) + node;
-    const vec4 ball = texelFetch(lightTree, ivec2(texel % kTreeWidth, texel / kTreeWidth), 0);
-    if (ball.w >= kBoundless) return true;
-    LightShape shape = LightShape(mat3(view.viewFromWorld) * (ball.xyz - view.worldFromView[3].xyz), vec3(0, 0, 1), ball.w, kHalfTurn);
-    return touches(cell, vec4(shape.apex, shape.radius + slackOf(view, shape)));
+bool nodeTouches(Cell cell, uint place) {
+    const vec4 ball = texelFetch(lightTree, ivec2(place % kTreeWidth, place / kTreeWidth), 0);
+    const vec3 center = mat3(view.viewFromWorld) * (ball.xyz - view.worldFromView[3].xyz);
+    return ball.w >= kBoundless || touches(cell, vec4(center, ball.w + cell.slack + rounding(center, ball.w)));
 }
 
 void main() {
@@ -149,14 +157,17 @@ void main() {
 #else
     uint place = 0u;
 #endif
-    uint level = push.rootLevel;
     // Depth first, without a stack: whether a node is done with, the next light's number tells.
+    uint level = push.rootLevel;
+    uint node = treePlace(level, light);
     while (light < end) {
-        const bool hit = level > 0u ? nodeTouches(cell, level, light >> (kTreeBits * level)) : lightTouches(cell, light);
+        const bool hit = level > 0u ? nodeTouches(cell, node) : lightTouches(cell, light);
         if (hit && level > 0u) {
             --level;
+            ++node;
             continue;
         }
+        if (level > 0u) node += treeSize(level);
         if (hit) {
 #ifdef FILL
             if (place < room) entries[place] = light;

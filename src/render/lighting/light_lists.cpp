@@ -111,6 +111,14 @@ std::optional<LightingAttempt> judge(LightListStats stats, LightingAttempt attem
 
 }  // namespace
 
+uint32_t tileSizeOf(const RenderSettings& settings) {
+    switch (settings.tileSize) {
+        case TileSize::n8: return 8;
+        case TileSize::n32: return 32;
+        default: return 16;
+    }
+}
+
 std::vector<ListPage> listPages(uint32_t count, uint32_t pages) {
     const uint32_t each = std::max(1u, (count + pages - 1) / pages);
     uint32_t level = 0;
@@ -133,7 +141,7 @@ void addLightLists(FrameGraph& graph, const LightingInputs& in, ListsOf which,
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
     const bool clustered = which == ListsOf::clusters;
     const bool blends = clustered && in.scene.hasBlended();
-    LightLists lists{.clustered = clustered, .tileSize = in.settings.tileSize == TileSize::n8 ? 8u : in.settings.tileSize == TileSize::n32 ? 32u : 16u};
+    LightLists lists{.clustered = clustered, .tileSize = tileSizeOf(in.settings)};
     lists.tileCount = tilesAcross(extent.width, lists.tileSize) * tilesAcross(extent.height, lists.tileSize);
     const uint64_t samples = in.settings.msaa != Msaa::x1 ? 4 : 1;
     const uint64_t most = clustered && !blends

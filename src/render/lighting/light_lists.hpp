@@ -17,6 +17,9 @@ struct LightLists {
 
 enum class ListsOf { tiles, clusters };
 
+/// Pixels a side of a tile.
+uint32_t tileSizeOf(const RenderSettings& settings);
+
 /// The lights that the lists of one page hold, and how a page is cut.
 struct ListPage {
     uint32_t first, count;  ///< in the table of lights

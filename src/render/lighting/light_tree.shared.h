@@ -5,18 +5,22 @@
 SHARED_BEGIN
 // Lights that are neighbours in the table are neighbours in space. Node i of level l encloses lights [8^l i, 8^l (i + 1)) of the table;
 // level 0 are the lights themselves, the highest level has a root for every 8^5 of them. A node is a ball in world space, a texel: its
-// centre and its radius. Level by level they lie in rows of an image.
+// centre and its radius. They lie in an image, row by row, each followed by its children and theirs: who goes through the tree depth first
+// finds the next node right behind, or, if it leaves one out, treeSize further on.
 //     level 2   |              0              | ...
 //     level 1   |      0       |      1       | ...        16 / 8 + 16 / 64 + ... = 2.3 bytes a light
 //     lights    0 1 2 3 4 5 6 7 8 9 ...
 const uint kTreeBits = 3u;
 const uint kTreeLevels = 5u;
 const uint kTreeWidth = 2048u;  // texels of a row
-SHARED_FN uint treeNodes(uint level, uint lights) { return (lights + (1u << (kTreeBits * level)) - 1u) >> (kTreeBits * level); }
-SHARED_FN uint treeFirst(uint level, uint lights) {
-    uint first = 0u;
-    for (uint l = 1u; l < level; ++l) first += treeNodes(l, lights);
-    return first;
+
+// Nodes of a tree below a node of `level` >= 1, itself included: (8^level - 1) / 7.
+SHARED_FN uint treeSize(uint level) { return ((1u << (kTreeBits * level)) - 1u) / 7u; }
+// Where the node of `level` >= 1 that encloses a light lies.
+SHARED_FN uint treePlace(uint level, uint light) {
+    uint place = (light >> (kTreeBits * kTreeLevels)) * treeSize(kTreeLevels);
+    for (uint l = level; l < kTreeLevels; ++l) place += 1u + (light >> (kTreeBits * l) & 7u) * treeSize(l);
+    return place;
 }
 SHARED_END
 #endif

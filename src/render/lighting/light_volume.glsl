@@ -4,9 +4,15 @@
 #include "render/lighting/light_volume.shared.h"
 #include "render/shaders/frame.glsl"
 
+// Where there are no spot lights, none of their trigonometry.
+LightShape shapeOf(LightConstants light) {
+    if ((kLights & kUsesSpot) == 0u) return LightShape(light.position, vec3(0, 0, 1), light.range, kHalfTurn);
+    return lightShape(light);
+}
+
 // The light's shape, larger by what the G-buffer may be off.
 LightShape enclosingShape(LightConstants light) {
-    const LightShape shape = lightShape(light);
+    const LightShape shape = shapeOf(light);
     return inflate(shape, slackOf(view, shape));
 }
 

@@ -62,8 +62,9 @@ struct LightingTechnique {
     AddLighting add;
     bool forward = false;  ///< colours surfaces while it draws them: no G-buffer
     enum class Stencil { never, forMeshes, always } stencil = Stencil::never;  ///< when the depth buffer has to have one
-    bool samples = forward;  ///< takes any number of samples a pixel
+    bool samples = false;  ///< takes any number of samples a pixel
     bool whole = false;   ///< deferred: sets `sum` to all the light there is, surfaces that blend included
+    bool points = false;  ///< draws points as large as a tile, that bring along kBatchTexels (tiled_points.shared.h)
     bool onHost = false;  ///< the host looks at each light, so that none can be made on the device
 };
 

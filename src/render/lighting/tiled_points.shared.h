@@ -11,6 +11,7 @@ struct Batch {
     uint first;   // of its tile: that light belongs to it
 };
 const uint kBatchTexels = 24u;  // that a point brings along
+const uint kPassedOn = 4u * kBatchTexels + 8u;  // values: the texels, two numbers, the position
 const uint kBatchSizes = 4u;    // batches are sorted by how many lights there is room for, so that none evaluates many too many
 
 // Lights that a batch of a size has room for. \param most kBatchTexels / texelsOfLight
