@@ -24,10 +24,8 @@ struct LucioleStoredLight {
     float position[3];
     float range;
     float direction[3];
-    float inverseRange;
-    float color[3];
     float coneScale;
-    float coneOffset;
+    float color[3];
     float cosOuter;
     uint type;
     uint flags;
@@ -52,14 +50,14 @@ uint lucioleDigits(uvec4 images[4], uint indexBits, uint entryBits, uint n) {
 }
 
 // KHR_lights_punctual, "Range Property" and "Inner and Outer Cone Angles".
-float lucioleInverseSquare(float dist, float inverseRange) {
-    const float x = dist * inverseRange;
+float lucioleInverseSquare(float dist, float range) {
+    const float x = dist / range;
     const float x2 = x * x;
     const float d = max(dist, 0.01);
     return clamp(1.0 - x2 * x2, 0.0, 1.0) / (d * d);
 }
-float lucioleCone(float cosAngle, float scale, float offset) {
-    const float cone = clamp(cosAngle * scale + offset, 0.0, 1.0);
+float lucioleCone(float cosAngle, float cosOuter, float scale) {
+    const float cone = clamp((cosAngle - cosOuter) * scale, 0.0, 1.0);
     return cone * cone;
 }
 
@@ -108,8 +106,7 @@ struct LucioleLight {
     vec3 direction;      // view space, where it shines to
     vec3 color;          // candela; directional: lux
     float range;         // metres; very large where it has none
-    float inverseRange;  // 0 where it has none
-    float coneScale, coneOffset, cosOuter;
+    float cosOuter, coneScale;
     uint attenuation, falloff;  // rows of the table of functions, or kLucioleNone
     uint linkGroup;      // as luciole::Light has it, or kLucioleNone: what belongs to it the host knows
     uint sceneIndex;     // in the lights that the host gave, for whatever else it keeps of them
@@ -119,7 +116,7 @@ struct LucioleLight {
 LucioleLight lucioleLight(uint index) {
     const LucioleStoredLight s = lucioleTable[index - 1u];
     return LucioleLight(s.type, s.flags, vec3(s.position[0], s.position[1], s.position[2]), vec3(s.direction[0], s.direction[1], s.direction[2]),
-                        vec3(s.color[0], s.color[1], s.color[2]), s.range, s.inverseRange, s.coneScale, s.coneOffset, s.cosOuter,
+                        vec3(s.color[0], s.color[1], s.color[2]), s.range, s.cosOuter, s.coneScale,
                         s.attenuation, s.falloff, s.linkGroup, s.sceneIndex);
 }
 
@@ -136,11 +133,11 @@ LucioleArrival lucioleArrival(LucioleLight light, vec3 positionView) {
     const float dist = length(toLight);
     const vec3 L = toLight / max(dist, 1e-6);
     if (dist >= light.range) return LucioleArrival(L, vec3(0));
-    float strength = light.attenuation == kLucioleNone ? lucioleInverseSquare(dist, light.inverseRange)
-                                                       : lucioleLookUp(lucioleFunctions, light.attenuation, dist * light.inverseRange).x;
+    float strength = light.attenuation == kLucioleNone ? lucioleInverseSquare(dist, light.range)
+                                                       : lucioleLookUp(lucioleFunctions, light.attenuation, dist / light.range).x;
     if (light.type == kLucioleSpot) {
         const float cosAngle = -dot(L, light.direction);
-        if (light.falloff == kLucioleNone) strength *= lucioleCone(cosAngle, light.coneScale, light.coneOffset);
+        if (light.falloff == kLucioleNone) strength *= lucioleCone(cosAngle, light.cosOuter, light.coneScale);
         else strength *= cosAngle > light.cosOuter ? lucioleLookUp(lucioleFunctions, light.falloff, 0.5 * cosAngle + 0.5).x : 0.0;
     }
     return LucioleArrival(L, light.color * strength);

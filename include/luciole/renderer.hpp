@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -131,6 +132,13 @@ public:
     /// Brings a valid scene (see `validate`) onto the device, in place of the one before. `scene` may die afterwards.
     /// \throws Error(limit) for what the device can't hold, Error(deviceLost) if its memory is full
     void setScene(const Scene& scene);
+
+    /// Brings other lights onto the device, as many as before or not, in place of those of the scene set last. They refer to its
+    /// functions, link groups and light volumes, and may move every frame: lights that come in the same numbers, and use nothing new, cost
+    /// no more than to sort and copy them. `lights` may die afterwards.
+    /// \throws Error(scene) for lights that break a rule of scene.hpp (see `validate`), Error(limit) for more than the device can hold,
+    ///         Error(deviceLost); the lights that were there stay, then
+    void setLights(std::span<const Light> lights);
 
     /// Renders one picture of the scene set last (an empty one at first) and waits for it.
     /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -251,6 +252,8 @@ bool isDrawn(const Object& object);
 /// \throws Error(scene) naming the element, the rule and what was found; Error(limit) for the kMax* constants
 void validate(const Scene& scene);
 void validate(const Camera& camera);
+/// Of lights only, as if they stood in `scene`: of it the functions and the numbers of link groups and light volumes are looked at.
+void validate(std::span<const Light> lights, const Scene& scene);
 
 /// Value (shape, cascade) of a dot-product, attenuation or falloff function, in double precision.
 /// \param x anywhere; clamped to the domain [low, 1], with low = -1 for dot products and cosines, 0 for attenuation

@@ -214,8 +214,10 @@ CompiledGraph FrameGraph::compile() const {
             compiled.used[resource] = true;
             CompiledPass& pass = compiled.passes[epoch.firstPass];
             const bool first = &epoch == &epochs.front();
-            if (first && !epoch.use.overwrites && resources_[resource].content.empty() && !resources_[resource].outside)
-                misuse(passes_[pass.pass], resources_[resource], "used before anything was written to it");
+            const Resource& target = resources_[resource];
+            const bool filled = !target.content.empty() || target.imported || target.outside;
+            if (first && !epoch.use.overwrites && !filled)
+                misuse(passes_[pass.pass], target, "used before anything was written to it");
             if (!first || resources_[resource].isImage())
                 pass.barriers.push_back({resource, previous.stages, epoch.use.stages, writesOf(previous.access), epoch.use.access,
                                          epoch.use.overwrites ? vk::ImageLayout::eUndefined : previous.layout, epoch.use.layout});

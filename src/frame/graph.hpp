@@ -119,7 +119,8 @@ public:
     ImageId createImage(std::string name, ImageDesc desc);
     const ImageDesc& descOf(ImageId image) const { return resources_.at(image.index).image; }
     BufferId createBuffer(std::string name, uint64_t bytes);
-    /// A buffer that the frame fills and that outlives it, such as one that the frame's set names.
+    /// A buffer that outlives the frame, such as one that the frame's set names. Until a pass writes it, it holds what the host made
+    /// visible to all commands, or what the frame before left.
     BufferId importBuffer(std::string name, uint64_t bytes, vk::Buffer handle);
     /// An image that somebody else owns and has filled, with one level and one layer. Its owner may do with it whatever he likes in
     /// the same queue, before the frame and after it: the frame waits for him and he for the frame.

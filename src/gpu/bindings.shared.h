@@ -12,10 +12,11 @@ const uint kFrameLights = 4u;
 const uint kFrameLinks = 5u;
 const uint kFrameFunctions = 6u;  // sampled image: the function table
 const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once more
-const uint kFrameSources = 8u;        // storage buffers from here: the lights in world space
+const uint kFrameLightKinds = 8u;     // storage buffers from here ...
 const uint kFrameVolumes = 9u;
 const uint kFrameVolumeVertices = 10u;
-const uint kFrameLightTree = 11u;     // sampled image: light_tree.shared.h
+const uint kFrameUniformLightKinds = 11u;  // uniform buffer: the first kinds once more
+const uint kFrameLightTree = 12u;     // sampled image: light_tree.shared.h
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names

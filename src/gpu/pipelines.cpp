@@ -28,7 +28,8 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     add(frame, kFrameLights, kFrameFunctions - kFrameLights, Type::eStorageBuffer);
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
     add(frame, kFrameUniformLights, 1, Type::eUniformBuffer);
-    add(frame, kFrameSources, kFrameVolumeVertices - kFrameSources + 1, Type::eStorageBuffer);
+    add(frame, kFrameLightKinds, kFrameVolumeVertices - kFrameLightKinds + 1, Type::eStorageBuffer);
+    add(frame, kFrameUniformLightKinds, 1, Type::eUniformBuffer);
     add(frame, kFrameLightTree, 1, Type::eCombinedImageSampler);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of

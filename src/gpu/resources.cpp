@@ -121,6 +121,12 @@ Buffer uploadBuffer(const Context& context, const std::string& name, std::span<c
     Buffer target = makeBuffer(context, name, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst);
     if (data.empty()) return target;
     MappedBuffer staging(context, name + " staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    updateBuffer(context, target, data, staging);
+    return target;
+}
+
+void updateBuffer(const Context& context, const Buffer& target, std::span<const std::byte> data, MappedBuffer& staging) {
+    if (data.empty()) return;
     staging.write(data);
     context.runOnce([&](const vk::raii::CommandBuffer& commands) {
         commands.copyBuffer(staging.handle(), *target.handle, vk::BufferCopy{.size = data.size()});
@@ -130,7 +136,6 @@ Buffer uploadBuffer(const Context& context, const std::string& name, std::span<c
                                          .dstAccessMask = vk::AccessFlagBits2::eMemoryRead};
         commands.pipelineBarrier2({.memoryBarrierCount = 1, .pMemoryBarriers = &visible});
     });
-    return target;
 }
 
 Image uploadImage(const Context& context, const std::string& name, vk::Format format, vk::Extent2D extent,

@@ -31,6 +31,13 @@ void checkRequest(const View& view, const std::vector<std::string>& aovs) {
                         fmt::format("aov: expected one of {}, got \"{}\"", fmt::join(aovNames(), ", "), name));
 }
 
+std::string whyNoBounce(const Light& light) {
+    if (light.type != LightType::spot) return light.type == LightType::point ? "a point light" : "a directional light";
+    if (!(light.outerConeAngle < kWidestBounce)) return fmt::format("which has {} rad", light.outerConeAngle);
+    if (light.volume != kNone) return "which a mesh bounds";
+    return light.contribution == LightContribution::specularOnly ? "which lights highlights only" : "";
+}
+
 std::optional<uint32_t> bouncingLight(std::span<const Light> lights, const RenderSettings& settings) {
     const std::string& wanted = settings.bounceLight;
     if (wanted == "none") return std::nullopt;
@@ -41,15 +48,9 @@ std::optional<uint32_t> bouncingLight(std::span<const Light> lights, const Rende
             throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none, a light's name or its index below {}, got \"{}\"",
                                                       lights.size(), wanted));
     }
-    const Light& light = lights[index];
-    const auto refuse = [&](const std::string& why) {
+    if (const std::string why = whyNoBounce(lights[index]); !why.empty())
         throw Error(ErrorKind::usage, fmt::format("bounce-light: expected a spot light with an outer cone angle below {} rad that no mesh "
                                                   "bounds and that lights more than highlights, got \"{}\", {}", kWidestBounce, wanted, why));
-    };
-    if (light.type != LightType::spot) refuse(light.type == LightType::point ? "a point light" : "a directional light");
-    if (!(light.outerConeAngle < kWidestBounce)) refuse(fmt::format("which has {} rad", light.outerConeAngle));
-    if (light.volume != kNone) refuse("which a mesh bounds");
-    if (light.contribution == LightContribution::specularOnly) refuse("which lights highlights only");
     return index;
 }
 

@@ -16,6 +16,9 @@ void checkRequest(const View& view, const std::vector<std::string>& aovs);
 
 inline constexpr float kWidestBounce = 1.4f;  ///< radians; beyond, the square around the cone is much larger than the cone
 
+/// What keeps a light from bouncing; empty: nothing does.
+std::string whyNoBounce(const Light& light);
+
 /// The light whose bounce the settings ask for, an index into `lights`.
 /// \throws Error(usage) if there is no such light, or if it can't bounce: all but spot lights with an outer cone angle below
 ///         kWidestBounce, bounded by no mesh, that light more than highlights

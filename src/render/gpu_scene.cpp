@@ -23,6 +23,10 @@ namespace {
 using namespace shared;
 using Usage = vk::BufferUsageFlagBits;
 
+/// What shaders read the table of lights through, if all fit: no buffer of a table is smaller.
+constexpr vk::DeviceSize kUniformLightBytes = kUniformLights * sizeof(PackedLight);
+constexpr vk::DeviceSize kUniformLightKindBytes = kUniformLightKinds * sizeof(LightKind);
+
 /// The textures of a material in the order of kTexture*, and whether each holds sRGB colours.
 struct TextureRole {
     const TextureUse* use;
@@ -106,7 +110,8 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     links_ = gpu::uploadBuffer(context_, "link table", linkTable_, Usage::eStorageBuffer);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
     bounceView_ = gpu::MappedBuffer(context_, "bounce view", sizeof(ViewConstants), Usage::eUniformBuffer);
-    uploadLights({});
+    uploadLights(sceneLights_, {});
+    lightStaging_ = {};  // few scenes have other lights later
     volumeTable_ = gpu::uploadBuffer(context_, "light volumes", volumes_.volumes, Usage::eStorageBuffer);
     volumeVertices_ = gpu::uploadBuffer(context_, "light volume vertices", volumes_.vertices, Usage::eStorageBuffer);
     volumeIndices_ = gpu::uploadBuffer(context_, "light volume indices", render::volumeIndices(), Usage::eIndexBuffer);
@@ -222,9 +227,9 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 4},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameSources + 1)},
-                                            {vk::DescriptorType::eUniformBuffer, count + 6}};
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * 2},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameLightKinds + 1)},
+                                            {vk::DescriptorType::eUniformBuffer, count + 2 * 4}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
                                                          .pPoolSizes = sizes});
@@ -270,33 +275,64 @@ void GpuScene::uploadFunctions(const Scene& scene) {
                                   {kFunctionSamples, uint32_t(table.size() / kFunctionSamples)}, std::span(&level, 1));
 }
 
-void GpuScene::uploadLights(std::optional<Bounce> bounce) {
+void GpuScene::uploadLights(std::span<const Light> lights, std::optional<Bounce> bounce) {
     constexpr uint32_t kMostLights = 64 * 65535;  // a dispatch of so many, in groups of 64, is the most that every device takes
     const uint32_t placed = bounce ? bounce->grid * bounce->grid : 0;
-    if (sceneLights_.size() + placed > kMostLights)
-        throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, got {}", kMostLights, sceneLights_.size() + placed));
-    SortedLights lights = sortLights(sceneLights_, functionCount_);
-    uint32_t features = render::lightFeatures(sceneLights_);
+    if (lights.size() + placed > kMostLights)
+        throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, got {}", kMostLights, lights.size() + placed));
+    SortedLights sorted = sortLights(lights, functionCount_);
+    uint32_t features = render::lightFeatures(lights);
     if (bounce) {
-        bounce->light = uint32_t(std::ranges::find(lights.sources, bounce->sceneIndex, &LightConstants::sceneIndex) - lights.sources.begin());
-        bounce->first = addPlacedLights(lights, lights.sources[bounce->light], uint32_t(sceneLights_.size()), placed);
+        bounce->light = uint32_t(std::ranges::find(sorted.sources, bounce->sceneIndex, &PackedLight::sceneIndex) - sorted.sources.begin());
+        bounce->first = addPlacedLights(sorted, lights[bounce->sceneIndex].linkGroup, uint32_t(lights.size()), placed);
         features |= kUsesLocal | kUsesSpot | kUsesContributions | kUsesLambertian;
     }
-    // Never smaller than the uniform block that shaders may read it through.
-    const size_t uniformBytes = kUniformLights * sizeof(LightConstants);
-    if (lights.sources.size() <= kUniformLights && uniformBytes <= context_.limits().maxUniformBufferRange) features |= kUsesUniformLights;
-    gpu::Buffer sources = gpu::uploadBuffer(context_, "light sources", lights.sources, Usage::eStorageBuffer);
-    lightTable_ = gpu::makeBuffer(context_, "light table", std::max(lights.sources.size() * sizeof(LightConstants), uniformBytes),
-                                  Usage::eStorageBuffer | Usage::eUniformBuffer);
-    std::vector<vec4> tree = lightTree(lights, volumes_);
-    const auto rows = uint32_t(std::max<size_t>(1, (tree.size() + kTreeWidth - 1) / kTreeWidth));
-    tree.resize(size_t(rows) * kTreeWidth);
+    if (sorted.sources.size() <= kUniformLights && kUniformLightBytes <= context_.limits().maxUniformBufferRange) features |= kUsesUniformLights;
+    if (sorted.kinds.size() <= kUniformLightKinds && kUniformLightKindBytes <= context_.limits().maxUniformBufferRange) features |= kUsesUniformLightKinds;
+    const auto rows = std::as_bytes(std::span(sorted.sources)), kindRows = std::as_bytes(std::span(sorted.kinds));
+    // All memory first: what there is not enough of leaves the lights as they were.
+    const auto larger = [&](const gpu::Buffer& table, const char* name, uint64_t bytes) {
+        return bytes > table.bytes ? gpu::makeBuffer(context_, name, bytes, Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferDst) : gpu::Buffer{};
+    };
+    gpu::Buffer table = larger(lightTable_, "light table", std::max(rows.size(), kUniformLightBytes));
+    gpu::Buffer kinds = larger(lightKinds_, "light kinds", std::max(kindRows.size(), kUniformLightKindBytes));
+    std::vector<vec4> tree = lightTree(sorted, volumes_);
+    const auto treeRows = uint32_t(std::max<size_t>(1, (tree.size() + kTreeWidth - 1) / kTreeWidth));
+    tree.resize(size_t(treeRows) * kTreeWidth);
     const std::span<const std::byte> texels = std::as_bytes(std::span(tree));
-    lightTree_ = gpu::uploadImage(context_, "light tree", vk::Format::eR32G32B32A32Sfloat, {kTreeWidth, rows}, std::span(&texels, 1));
-    sources_ = std::move(sources);
-    lights_ = std::move(lights);
+    gpu::Image treeImage = gpu::uploadImage(context_, "light tree", vk::Format::eR32G32B32A32Sfloat, {kTreeWidth, treeRows}, std::span(&texels, 1));
+    if (const size_t bytes = std::max(rows.size(), kindRows.size()); bytes > lightStaging_.bytes())
+        lightStaging_ = gpu::MappedBuffer(context_, "light staging", bytes, Usage::eTransferSrc);
+    if (table.bytes > 0) lightTable_ = std::move(table);
+    if (kinds.bytes > 0) lightKinds_ = std::move(kinds);
+    lightTree_ = std::move(treeImage);
+    gpu::updateBuffer(context_, lightTable_, rows, lightStaging_);
+    gpu::updateBuffer(context_, lightKinds_, kindRows, lightStaging_);
+    lights_ = std::move(sorted);
     lightFeatures_ = features;
     bounce_ = std::move(bounce);
+    if (!bounce_) return;
+    ViewConstants seen = render::viewConstants({bounce_->camera, uvec2(bounce_->grid)}, ambience_);
+    seen.lightCount = lightCount();
+    seen.linkWords = linkWords_;
+    bounceView_.write(std::span<const ViewConstants>(&seen, 1));
+}
+
+bool GpuScene::setLights(std::span<const Light> lights) {
+    // The bounce of a light that still can: render would only ask for the same again.
+    std::optional<Bounce> bounce;
+    if (bounce_ && bounce_->sceneIndex < lights.size() && whyNoBounce(lights[bounce_->sceneIndex]).empty())
+        bounce = {.sceneIndex = bounce_->sceneIndex, .grid = bounce_->grid, .camera = bounceCamera(lights[bounce_->sceneIndex])};
+    const auto structure = [&] {
+        return std::tuple(lights_.unbounded, lights_.shaped, lights_.meshes, lightFeatures_, bounce_.has_value(), *lightTable_.handle, *lightKinds_.handle);
+    };
+    const auto before = structure();
+    uploadLights(lights, bounce);
+    sceneLights_.assign(lights.begin(), lights.end());
+    ++lightsVersion_;
+    const bool changed = structure() != before;
+    writeFrameSets();  // the tree is a new image
+    return changed || lights_.meshes > 0;
 }
 
 bool GpuScene::setBounce(const RenderSettings& settings) {
@@ -304,13 +340,8 @@ bool GpuScene::setBounce(const RenderSettings& settings) {
     if (wanted ? bounce_ && bounce_->sceneIndex == *wanted && bounce_->grid == settings.bounceGrid : !bounce_) return false;
     std::optional<Bounce> bounce;
     if (wanted) bounce = {.sceneIndex = *wanted, .grid = settings.bounceGrid, .camera = bounceCamera(sceneLights_[*wanted])};
-    uploadLights(bounce);
+    uploadLights(sceneLights_, bounce);
     writeFrameSets();
-    if (!bounce_) return true;
-    ViewConstants seen = render::viewConstants({bounce_->camera, uvec2(bounce_->grid)}, ambience_);
-    seen.lightCount = lightCount();
-    seen.linkWords = linkWords_;
-    bounceView_.write(std::span<const ViewConstants>(&seen, 1));
     return true;
 }
 
@@ -327,16 +358,16 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
         vk::DeviceSize range;
     };
     const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
-    const auto uniformLightBytes = std::min<vk::DeviceSize>(kUniformLights * sizeof(LightConstants), context_.limits().maxUniformBufferRange);
-    const auto uniformMaterialBytes = std::min<vk::DeviceSize>(kUniformMaterials * sizeof(MaterialConstants), context_.limits().maxUniformBufferRange);
+    const vk::DeviceSize most = context_.limits().maxUniformBufferRange;
     const Binding bindings[] = {{kFrameView, view, uniform, VK_WHOLE_SIZE},
                                 {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameUniformMaterials, *materials_.handle, uniform, uniformMaterialBytes},
+                                {kFrameUniformMaterials, *materials_.handle, uniform, std::min<vk::DeviceSize>(kUniformMaterials * sizeof(MaterialConstants), most)},
                                 {kFrameLights, *lightTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameLinks, *links_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameUniformLights, *lightTable_.handle, uniform, uniformLightBytes},
-                                {kFrameSources, *sources_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameUniformLights, *lightTable_.handle, uniform, std::min(kUniformLightBytes, most)},
+                                {kFrameLightKinds, *lightKinds_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameUniformLightKinds, *lightKinds_.handle, uniform, std::min(kUniformLightKindBytes, most)},
                                 {kFrameVolumes, *volumeTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
@@ -364,7 +395,6 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
     viewConstants_ = render::viewConstants(view, ambience_);
-    worldFromView_ = dmat4(view.camera.worldFromView);
     viewConstants_.lightCount = lightCount();
     viewConstants_.linkWords = linkWords_;
     viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);
@@ -379,8 +409,8 @@ std::vector<LightSlice> GpuScene::slices(uint32_t first, uint32_t count) const {
     std::vector<LightSlice> slices;
     uint32_t rounds = kLightsPerDraw;
     for (uint32_t i = first; i < first + count; ++i) {
-        const LightConstants& light = lights_.sources[i];
-        const uint32_t more = 1 + (light.volume == kNoIndex ? 0 : volumeOf(light).vertexCount / 3);
+        const bool mesh = i >= lights_.unbounded + lights_.shaped;
+        const uint32_t more = 1 + (mesh ? volumeOf(lights_.at(i)).vertexCount / 3 : 0);
         if (rounds + more > kLightsPerDraw) {
             slices.push_back({i, 0});
             rounds = 0;

@@ -58,6 +58,13 @@ class GpuScene {
 public:
     GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene);
 
+    /// Puts other lights in place of the scene's, valid ones. \return whether a frame graph made with the old ones won't do: it knows how many
+    /// there are of each shape, what they use, where the table lies, and the meshes that bound any
+    /// \throws Error(limit) for more lights than a table holds; then the old ones stay
+    bool setLights(std::span<const Light> lights);
+    /// Another number after each setLights, for whoever looked at single lights.
+    uint32_t lightsVersion() const { return lightsVersion_; }
+
     /// Makes room for the lights of the bounce that the settings ask for, if they aren't those of the last call. \return whether so
     /// \throws Error(usage) for a light that can't bounce, Error(limit) for more lights than a table holds
     bool setBounce(const RenderSettings& settings);
@@ -67,7 +74,6 @@ public:
     /// Writes what depends on the view, whatever the number of lights.
     void setView(const View& view, const RenderSettings& settings, GBufferLayout layout);
     const shared::ViewConstants& view() const { return viewConstants_; }
-    mat4 viewFrom(const Camera& camera) const { return mat4(inverse(worldFromView_) * dmat4(camera.worldFromView)); }
 
     vk::DescriptorSet frameSet() const { return frameSet_; }
 
@@ -75,16 +81,15 @@ public:
     uint32_t equations() const { return equations_; }
     uint32_t lightFeatures() const { return lightFeatures_; }
     uint32_t lightCount() const { return uint32_t(lights_.sources.size()); }
-    /// The order of the light tables, in world space.
+    /// The table of lights and their kinds.
     const SortedLights& lights() const { return lights_; }
     const VolumeTables& volumes() const { return volumes_; }
     const ObjectClasses& objectClasses() const { return objectClasses_; }
     const shared::VolumeConstants& volumeOf(const shared::LightConstants& light) const { return volumes_.volumes[light.volume]; }
     vk::Buffer volumeIndices() const { return *volumeIndices_.handle; }  ///< of the meshes of all levels of detail
-    /// The lights in view space, for the frame to fill.
     vk::Buffer lightTable() const { return *lightTable_.handle; }
     vk::ImageView functionImage() const { return *functions_.view; }
-    uint64_t lightTableBytes() const { return lightTable_.bytes; }
+    uint64_t lightTableBytes() const { return lightCount() * sizeof(shared::PackedLight); }
     /// Lights [first, first + count), cut so that a draw that loops over a slice, and over the triangles of its lights' volumes,
     /// stays below kLightsPerDraw rounds.
     std::vector<shared::LightSlice> slices(uint32_t first, uint32_t count) const;
@@ -126,7 +131,7 @@ private:
     vk::Sampler samplerOf(const Sampler& wanted);
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
     void uploadFunctions(const Scene& scene);
-    void uploadLights(std::optional<Bounce> bounce);
+    void uploadLights(std::span<const Light> lights, std::optional<Bounce> bounce);
     void writeFrameSets();
     void writeFrameSet(vk::DescriptorSet set, vk::Buffer view);
     void bindMeshes(frame::PassContext& pass) const;
@@ -136,8 +141,8 @@ private:
     gpu::Buffer vertices_, indices_;
     std::vector<MeshRange> meshes_;
     gpu::Buffer objects_, materials_, drawnMaterials_, links_;
-    gpu::Buffer sources_, lightTable_, volumeTable_, volumeVertices_, volumeIndices_;
-    gpu::MappedBuffer view_, bounceView_;
+    gpu::Buffer lightTable_, lightKinds_, volumeTable_, volumeVertices_, volumeIndices_;
+    gpu::MappedBuffer view_, bounceView_, lightStaging_;
     gpu::Image functions_, lightTree_;
     std::vector<Batch> batches_;
     std::vector<OpaqueObject> opaque_;
@@ -150,13 +155,13 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::DescriptorSet frameSet_, bounceSet_;
     std::vector<Light> sceneLights_;
+    uint32_t lightsVersion_ = 0;
     uint32_t functionCount_ = 0;
     SortedLights lights_;
     std::optional<Bounce> bounce_;
     VolumeTables volumes_;
     ObjectClasses objectClasses_;
     shared::ViewConstants viewConstants_{};
-    dmat4 worldFromView_{1};
     Ambience ambience_;
     float exposureEv_ = 0;
     uint32_t equations_ = 0;

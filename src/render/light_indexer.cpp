@@ -37,9 +37,22 @@ Scene lightsOf(const Scene& scene) {
 }
 
 struct IndexedFrame {
+    gpu::Buffer lightsInView;  ///< by light a LucioleStoredLight (light_index.glsl), which shared::LightConstants is, too
     LightIndices indices;
     frame::Executor executor;
 };
+
+/// The pass that makes the table of lights as the host reads it, in view space.
+frame::BufferId addLightsInView(frame::FrameGraph& graph, const LightingInputs& in, const gpu::Buffer& table) {
+    const frame::BufferId inView = graph.importBuffer("lights in view", table.bytes, *table.handle);
+    graph.addPass("lighting.lights-in-view")
+        .read(in.lights, Access::computeTableRead)
+        .write(inView, Access::computeStorageWrite, 0)
+        .record([constants = in.constants, groups = (in.scene.lightCount() + 63) / 64](frame::PassContext& pass) {
+            if (groups > 0) pass.dispatch("render/lighting/lights_in_view.comp", constants, groups);
+        });
+    return inView;
+}
 
 /// The passes of `light-indexed` up to the index images. The host's depth is attached, read-only, as well as sampled: the test against
 /// it spares the shader the lights that end before the surface, and takes nothing away that the shader would let through.
@@ -54,17 +67,18 @@ IndexedFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, 
     const LightingInputs in{.gbuffer = noGBuffer,
                             .scene = scene,
                             .constants = {uint32_t(GBufferLayout::compact), scene.equations(), scene.lightFeatures()},
-                            .lights = addLightsInView(graph, scene),
+                            .lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable()),
                             .depth = graph.importImage("depth", {format, {depth.extent.x, depth.extent.y}}, depth.image, vk::ImageLayout(depth.layout)),
                             .settings = settings};
     LightIndices indices = addLightIndices(graph, in);
     if (indices.layout.mostIndex < scene.lightCount())
         throw Error(ErrorKind::limit, fmt::format("lights: expected at most {}, as overlap {} and indices {} tell apart, got {}", indices.layout.mostIndex,
                                                   settings.overlap, getSetting(settings, "indices"), scene.lightCount()));
+    gpu::Buffer lightsInView = gpu::makeBuffer(context, "lights in view", scene.lightCount() * sizeof(shared::LightConstants), vk::BufferUsageFlagBits::eStorageBuffer);
+    graph.output(addLightsInView(graph, in, lightsInView), Access::tableRead);
     for (const frame::ImageId image : indices.images) graph.output(image, Access::fragmentSampled);
-    graph.output(in.lights, Access::tableRead);
     graph.output(indices.counters);
-    return {std::move(indices), frame::Executor(context, pipelines, std::move(graph))};
+    return {std::move(lightsInView), std::move(indices), frame::Executor(context, pipelines, std::move(graph))};
 }
 
 /// A command buffer of the host's, which stays his.
@@ -145,9 +159,9 @@ void LightIndexer::setDepth(const HostDepth& depth) {
 }
 
 LightIndexDescriptors LightIndexer::descriptors() const {
-    const auto& [indices, executor] = *impl_->frame;
+    const auto& [lightsInView, indices, executor] = *impl_->frame;
     const auto sampled = [&](vk::ImageView view) { return VkDescriptorImageInfo{*impl_->sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}; };
-    LightIndexDescriptors descriptors{.lights = {impl_->gpuScene->lightTable(), 0, VK_WHOLE_SIZE}};
+    LightIndexDescriptors descriptors{.lights = {*lightsInView.handle, 0, VK_WHOLE_SIZE}};
     // Four bindings whatever the packing: there the last image stands in for those that are not.
     for (size_t i = 0; i < 4; ++i) descriptors.images[i] = sampled(executor.view(indices.images[std::min(i, indices.images.size() - 1)]));
     descriptors.images[4] = sampled(impl_->gpuScene->functionImage());

@@ -36,6 +36,7 @@ struct FrameKey {
     bool aovs;
     bool counts;  ///< the technique runs a second time and counts
     LightingAttempt attempt = {};
+    uint32_t lights = 0;                ///< their version, where the host looked at single ones
     std::optional<Camera> camera = {};  ///< where lights are sorted by where they are seen
     bool operator==(const FrameKey&) const = default;
 };
@@ -96,11 +97,13 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const bool depthFirst = key.settings.depthPrepass || (technique.forward && !multisampled);
     if (depthFirst) addDepth(graph, scene, "geometry.depth", gbuffer.depth);
     addGeometry(graph, scene, gbuffer, constants, depthFirst);
+    const frame::BufferId lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable());
+    if (scene.bounce()) addBounce(graph, scene, lights);
     LightingReport report;
     LightingInputs lighting{.gbuffer = gbuffer,
                             .scene = scene,
                             .constants = constants,
-                            .lights = addLightsInView(graph, scene),
+                            .lights = lights,
                             .depth = gbuffer.depth,
                             .settings = key.settings,
                             .attempt = key.attempt,
@@ -125,11 +128,20 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     return {.key = key, .outputs = outputs, .report = std::move(report), .executor = frame::Executor(context, pipelines, std::move(graph))};
 }
 
+bool sortsArrays(const RenderSettings& settings) {
+    return settings.lighting == "light-indexed" && (settings.lidrPacking == LidrPacking::cpuSort || settings.lidrPacking == LidrPacking::maxBlendSorted);
+}
+
+/// Whether the frame's structure depends on single lights, not only on how many there are of each shape (planIndices).
+bool plansLights(const RenderSettings& settings) {
+    const bool orders = settings.lidrTypes != LidrTypes::flag || settings.onOverflow == OnOverflow::priority;
+    return sortsArrays(settings) || (settings.lighting == "light-indexed" && orders);
+}
+
 /// Whether lights are sorted by where they are seen, and not once for all.
 bool sortsByView(const RenderSettings& settings, const GpuScene& scene) {
-    const bool sorts = settings.lidrPacking == LidrPacking::cpuSort || settings.lidrPacking == LidrPacking::maxBlendSorted;
     const bool onTheWay = settings.lidrCover == LidrCover::frontFaces || (settings.lidrCover == LidrCover::automatic && scene.hasBlended());
-    return settings.lighting == "light-indexed" && sorts && onTheWay;
+    return sortsArrays(settings) && onTheWay;
 }
 
 /// The settings that the frame's structure depends on. Forward techniques compute positions from depth, as the compact layout does.
@@ -147,7 +159,7 @@ void checkSettings(const gpu::Context& context, const RenderSettings& settings) 
     if (settings.lidrShare && !context.feedbackLoops())
         throw Error(ErrorKind::usage, fmt::format("lidr-share: expected off, as {} can't sample the colour attachment that a pass writes "
                                                   "(VK_EXT_attachment_feedback_loop_layout)", context.info().name));
-    const bool sorts = settings.lighting == "light-indexed" && (settings.lidrPacking == LidrPacking::cpuSort || settings.lidrPacking == LidrPacking::maxBlendSorted);
+    const bool sorts = sortsArrays(settings);
     if (settings.bounceLight != "none" && (technique.onHost || sorts))
         throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none with lighting {}, where the host looks at each light: the lights "
                                                   "of a bounce are made on the device", settings.lighting + (sorts ? " and a packing that sorts" : "")));
@@ -184,12 +196,21 @@ struct Renderer::Impl {
     void setScene(const Scene& scene) {
         frame.reset();
         gpuScene.reset();  // before the new one is made: both may not fit
+        lightRules = {};
         try {
             gpuScene = std::make_unique<render::GpuScene>(context, pipelines, scene);
         } catch (...) {
             gpuScene = std::make_unique<render::GpuScene>(context, pipelines, Scene{});
             throw;
         }
+        lightRules.functions = scene.functions;
+        lightRules.linkGroups.resize(scene.linkGroups.size());
+        lightRules.lightVolumes.resize(scene.lightVolumes.size());
+    }
+
+    void setLights(std::span<const Light> lights) {
+        validate(lights, lightRules);
+        if (gpuScene->setLights(lights)) frame.reset();
     }
 
     /// How the packing that the settings ask for fares on the device.
@@ -237,6 +258,7 @@ struct Renderer::Impl {
         if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
         render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
+        if (render::plansLights(settings)) key.lights = gpuScene->lightsVersion();
         if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
         // The attempt that did last time, if nothing else has changed and it was not more than needed.
         if (frame) key.attempt = frame->key.attempt;
@@ -263,6 +285,7 @@ struct Renderer::Impl {
     gpu::Pipelines pipelines;
     render::LightIndexSelfTest selfTest;
     std::unique_ptr<render::GpuScene> gpuScene;
+    Scene lightRules;  ///< what the rules of the scene's lights refer to, and nothing else of it
     std::unique_ptr<render::BuiltFrame> frame;
 };
 
@@ -278,6 +301,10 @@ const DeviceInfo& Renderer::device() const { return impl_->context.info(); }
 
 void Renderer::setScene(const Scene& scene) {
     translatingVulkanErrors([&] { impl_->setScene(scene); });
+}
+
+void Renderer::setLights(std::span<const Light> lights) {
+    translatingVulkanErrors([&] { impl_->setLights(lights); });
 }
 
 Frame Renderer::render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {

@@ -1,6 +1,8 @@
 #include "render/tables.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 
@@ -17,7 +19,8 @@ static_assert(sizeof(ObjectConstants) == 112);
 static_assert(sizeof(TextureSlot) == 28);
 static_assert(sizeof(SurfaceConstants) == 84 + kTextureSlots * sizeof(TextureSlot));
 static_assert(sizeof(MaterialConstants) == 36);
-static_assert(sizeof(LightConstants) == 84 && kUniformLights * sizeof(LightConstants) <= 65536);
+static_assert(sizeof(PackedLight) == 56 && kUniformLights * sizeof(PackedLight) <= 65536);
+static_assert(sizeof(LightKind) == 16 && kUniformLightKinds * sizeof(LightKind) <= 65536);
 
 dmat4 clipFromView(const Camera& camera, double aspect) {
     dmat4 m(0);
@@ -50,10 +53,10 @@ ViewConstants viewConstants(const View& view, const Ambience& ambience) {
     constants.clipFromView = mat4(clip);
     constants.viewFromWorld = mat4(viewFromWorld);
     constants.worldFromView = mat4(worldFromView);
-    constants.viewFromGBuffer = mat4(inverse(clip) * unbias);
+    constants.shadingFromGBuffer = mat4(dmat4(dmat3(worldFromView)) * inverse(clip) * unbias);
     constants.sky = ambience.sky;
     constants.ground = ambience.ground;
-    constants.upView = vec3(dmat3(viewFromWorld) * dvec3(ambience.upWorld));
+    constants.upWorld = ambience.upWorld;
     constants.orthographic = view.camera.orthographic;
     constants.extent = vec2(view.extent);
     constants.exposure = 1;
@@ -91,58 +94,102 @@ vec4 viewSlack(const View& view, GBufferLayout layout, bool multisampled) {
 }
 
 LightConstants lightConstants(const Light& light, uint32_t index, uint32_t functionCount) {
+    const bool spot = light.type == LightType::spot;
     LightConstants constants{};
     constants.type = uint32_t(light.type);
-    constants.position = light.positionWorld;
+    if (light.type != LightType::directional) constants.position = light.positionWorld;
     constants.direction = light.type == LightType::point ? vec3(0, 0, -1) : vec3(normalize(dvec3(light.directionWorld)));
     constants.color = light.color;
-    const bool bounded = std::isfinite(light.range);
-    constants.range = bounded ? light.range : std::numeric_limits<float>::max();
-    constants.inverseRange = bounded ? 1 / light.range : 0;
-    const double cosOuter = std::cos(double(light.outerConeAngle));
-    const double scale = 1 / std::max(0.001, std::cos(double(light.innerConeAngle)) - cosOuter);
-    constants.coneScale = float(scale);
-    constants.coneOffset = float(-cosOuter * scale);
-    constants.cosOuter = float(cosOuter);
+    constants.range = std::min(light.range, kNoRange);
+    constants.cosOuter = kFullCone;
+    constants.coneScale = kFullConeScale;
+    if (spot) {
+        const double cosOuter = std::cos(double(light.outerConeAngle));
+        constants.cosOuter = float(cosOuter);
+        constants.coneScale = float(1 / std::max(0.001, std::cos(double(light.innerConeAngle)) - cosOuter));
+    }
     constants.flags = (light.contribution != LightContribution::specularOnly ? kLightDiffuse : 0) |
                       (light.contribution != LightContribution::diffuseOnly ? kLightSpecular : 0) |
                       (light.infiniteViewer && light.type == LightType::directional ? kLightInfiniteViewer : 0);
     constants.attenuation = light.attenuation == kNone ? kNoIndex : functionCount + light.attenuation;
-    constants.falloff = light.falloff;
+    constants.falloff = spot ? light.falloff : kNoIndex;
     constants.linkGroup = light.linkGroup;
     constants.volume = light.volume;
     constants.sceneIndex = index;
     return constants;
 }
 
-SortedLights sortLights(const std::vector<Light>& lights, uint32_t functionCount) {
-    SortedLights sorted;
-    std::vector<LightConstants> shaped, meshes;
-    for (uint32_t i = 0; i < lights.size(); ++i) {
-        const Light& light = lights[i];
-        const LightConstants constants = lightConstants(light, i, functionCount);
-        if (light.volume != kNone)
-            meshes.push_back(constants);
-        else if (light.type != LightType::directional && light.range < kBoundless)
-            shaped.push_back(constants);
-        else
-            sorted.sources.push_back(constants);
+namespace {
+
+using Kind = std::array<uint32_t, sizeof(LightKind) / 4>;
+
+Kind kindOf(const LightConstants& light) {
+    return std::bit_cast<Kind>(LightKind{light.attenuation, light.falloff, light.linkGroup, light.volume});
+}
+
+/// Spreads the lowest ten bits, two zeros after each (Karras 2012, "Maximizing Parallelism in the Construction of BVHs, Octrees, and
+/// k-d Trees").
+uint32_t spreadBits(uint32_t v) {
+    v = (v | v << 16) & 0x030000ffu;
+    v = (v | v << 8) & 0x0300f00fu;
+    v = (v | v << 4) & 0x030c30c3u;
+    return (v | v << 2) & 0x09249249u;
+}
+
+/// Sorts indices of lights along a Morton curve (Morton 1966, "A Computer Oriented Geodetic Data Base") through 1024 cells a side of a
+/// cube around their positions; those of one cell stay as they are.
+void sortByPlace(std::vector<uint32_t>& order, std::span<const Light> lights) {
+    const auto position = [&](uint32_t i) { return lights[i].type == LightType::directional ? dvec3(0) : dvec3(lights[i].positionWorld); };
+    dvec3 low(INFINITY), high(-INFINITY);
+    for (const uint32_t i : order) low = min(low, position(i)), high = max(high, position(i));
+    const dvec3 size = high - low;
+    const double scale = 1024 / std::max({size.x, size.y, size.z, 1e-30});
+    // In one number, code above index, so that sorting moves little and is stable.
+    std::vector<uint64_t> keys;
+    keys.reserve(order.size());
+    for (const uint32_t i : order) {
+        const uvec3 cell = min(uvec3((position(i) - low) * scale), uvec3(1023));
+        const uint32_t code = spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
+        keys.push_back(uint64_t(code) << 32 | i);
     }
-    sorted.unbounded = uint32_t(sorted.sources.size());
+    std::ranges::sort(keys);
+    std::ranges::transform(keys, order.begin(), [](uint64_t key) { return uint32_t(key); });
+}
+
+}  // namespace
+
+SortedLights sortLights(std::span<const Light> lights, uint32_t functionCount) {
+    std::vector<uint32_t> unbounded, shaped, meshes;
+    for (uint32_t i = 0; i < lights.size(); ++i) {
+        const bool ball = lights[i].type != LightType::directional && lights[i].range < kBoundless;
+        (lights[i].volume != kNone ? meshes : ball ? shaped : unbounded).push_back(i);
+    }
+    SortedLights sorted;
+    sorted.unbounded = uint32_t(unbounded.size());
     sorted.shaped = uint32_t(shaped.size());
     sorted.meshes = uint32_t(meshes.size());
-    for (const auto* more : {&shaped, &meshes}) sorted.sources.insert(sorted.sources.end(), more->begin(), more->end());
+    sorted.sources.reserve(lights.size());
+    std::map<Kind, uint32_t> kinds;
+    for (std::vector<uint32_t>* order : {&unbounded, &shaped, &meshes}) {
+        sortByPlace(*order, lights);
+        for (const uint32_t i : *order) {
+            const LightConstants light = lightConstants(lights[i], i, functionCount);
+            const auto [row, added] = kinds.emplace(kindOf(light), uint32_t(kinds.size()));
+            if (added) sorted.kinds.push_back(std::bit_cast<LightKind>(row->first));
+            sorted.sources.push_back(packLight(light, row->second));
+        }
+    }
     return sorted;
 }
 
-uint32_t addPlacedLights(SortedLights& lights, const LightConstants& from, uint32_t firstIndex, uint32_t count) {
+uint32_t addPlacedLights(SortedLights& lights, uint32_t linkGroup, uint32_t firstIndex, uint32_t count) {
     LightConstants placed{};
     placed.type = kLightSpot;
     placed.flags = kLightDiffuse | kLightLambertian;
     placed.direction = vec3(0, 0, -1);
-    placed.attenuation = placed.falloff = placed.volume = kNoIndex;
-    placed.linkGroup = from.linkGroup;
-    std::vector<LightConstants> all(count, placed);
+    const auto kind = uint32_t(lights.kinds.size());
+    lights.kinds.push_back({kNoIndex, kNoIndex, linkGroup, kNoIndex});
+    std::vector<PackedLight> all(count, packLight(placed, kind));
     for (uint32_t i = 0; i < count; ++i) all[i].sceneIndex = firstIndex + i;
     const uint32_t first = lights.unbounded + lights.shaped;
     lights.sources.insert(lights.sources.begin() + first, all.begin(), all.end());
@@ -198,7 +245,8 @@ vec4 enclose(std::span<const vec4> balls) {
 
 std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volumes) {
     std::vector<vec4> balls;
-    for (const LightConstants& light : lights.sources) balls.push_back(reachOf(light, volumes));
+    balls.reserve(lights.sources.size());
+    for (const PackedLight& light : lights.sources) balls.push_back(reachOf(unpackLight(light, lights.kinds[kindOf(light)]), volumes));
     constexpr size_t kFan = 1 << kTreeBits, kBelowRoot = 1 << (kTreeBits * kTreeLevels);
     std::vector<vec4> tree((balls.size() + kBelowRoot - 1) / kBelowRoot * treeSize(kTreeLevels));
     for (uint32_t level = 1; level <= kTreeLevels; ++level) {
@@ -213,7 +261,7 @@ std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volu
     return tree;
 }
 
-uint32_t lightFeatures(const std::vector<Light>& lights) {
+uint32_t lightFeatures(std::span<const Light> lights) {
     uint32_t features = 0;
     for (const Light& light : lights) {
         features |= light.type == LightType::directional ? kUsesDirectional : kUsesLocal;

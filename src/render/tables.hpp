@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include <luciole/renderer.hpp>
@@ -18,20 +19,24 @@ vec4 viewSlack(const View& view, GBufferLayout layout, bool multisampled = false
 /// The light in world space. \param index in Scene::lights; \param functionCount of the scene (see functionTable)
 shared::LightConstants lightConstants(const Light& light, uint32_t index, uint32_t functionCount);
 
-/// The scene's lights sorted by the shape that a technique has to draw for them, in the scene's order within each.
+/// The scene's lights, in world space, sorted by the shape that a technique has to draw for them; of one shape along a Morton curve
+/// through their positions, so that neighbours in the table are neighbours in space.
 struct SortedLights {
-    std::vector<shared::LightConstants> sources;
+    std::vector<shared::PackedLight> sources;
+    std::vector<shared::LightKind> kinds;
     uint32_t unbounded = 0;  ///< so many first: directional ones and those with no range worth the name
     uint32_t shaped = 0;     ///< then so many that a ball or its sector encloses
     uint32_t meshes = 0;     ///< then those that a mesh bounds
+
+    shared::LightConstants at(uint32_t i) const { return shared::unpackLight(sources[i], kinds[shared::kindOf(sources[i])]); }
 };
 /// \param functionCount of the scene (see functionTable)
-SortedLights sortLights(const std::vector<Light>& lights, uint32_t functionCount);
+SortedLights sortLights(std::span<const Light> lights, uint32_t functionCount);
 
 /// Adds `count` lights that the device places (docs/techniques/bounce.md) to the end of the shaped ones. Until it has, they reach nothing.
-/// \param from the light whose links they have; \param firstIndex their scene index: those of the scene's own lights come before
+/// \param linkGroup of the light whose links they have; \param firstIndex their scene index: those of the scene's own lights come before
 /// \return the place of the first
-uint32_t addPlacedLights(SortedLights& lights, const shared::LightConstants& from, uint32_t firstIndex, uint32_t count);
+uint32_t addPlacedLights(SortedLights& lights, uint32_t linkGroup, uint32_t firstIndex, uint32_t count);
 
 struct VolumeTables {
     std::vector<shared::VolumeConstants> volumes;
@@ -47,7 +52,7 @@ std::vector<vec4> lightTree(const SortedLights& lights, const VolumeTables& volu
 /// counter-clockwise from outside.
 std::vector<uint32_t> volumeIndices();
 
-uint32_t lightFeatures(const std::vector<Light>& lights);
+uint32_t lightFeatures(std::span<const Light> lights);
 
 /// The material as both phases read it. `colorBound`: the largest vertex colour channel met on it, at least 1.
 struct MaterialTables {

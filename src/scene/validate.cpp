@@ -243,8 +243,8 @@ void checkCamera(const Element& element, const Camera& camera) {
     element.expect(camera.zFar > camera.zNear && isFinite(camera.zFar), "zFar", "a finite number > zNear", camera.zFar);
 }
 
-template <typename T, typename Check>
-void forEach(std::string_view list, const std::vector<T>& elements, const Check& check) {
+template <typename Elements, typename Check>
+void forEach(std::string_view list, const Elements& elements, const Check& check) {
     for (size_t i = 0; i < elements.size(); ++i) check(Element(list, i, elements[i].name), elements[i]);
 }
 
@@ -280,13 +280,17 @@ void validate(const Scene& scene) {
     forEach("functions", scene.functions, checkFunction);
     forEach("materials", scene.materials, [&](const Element& e, const Material& m) { checkMaterial(e, m, scene); });
     forEach("lightVolumes", scene.lightVolumes, checkVolume);
-    forEach("lights", scene.lights, [&](const Element& e, const Light& l) { checkLight(e, l, scene); });
+    validate(scene.lights, scene);
     forEach("cameras", scene.cameras, checkCamera);
     const Element ambience("ambience");
     ambience.finite("sky", scene.ambience.sky);
     ambience.finite("ground", scene.ambience.ground);
     ambience.unit("upWorld", scene.ambience.upWorld);
     Element("scene").finite("exposureEv", scene.exposureEv);
+}
+
+void validate(std::span<const Light> lights, const Scene& scene) {
+    forEach("lights", lights, [&](const Element& e, const Light& l) { checkLight(e, l, scene); });
 }
 
 void validate(const Camera& camera) { checkCamera(Element("camera"), camera); }

@@ -257,6 +257,21 @@ TEST_CASE("frame graph: what compute writes reaches tables and the arguments of 
     CHECK(to(arguments) == vk::PipelineStageFlagBits2::eDrawIndirect);
 }
 
+TEST_CASE("frame graph: what an imported buffer holds is read without a pass that wrote it, and without a barrier") {
+    FrameGraph graph;
+    const BufferId table = graph.importBuffer("table", 64, vk::Buffer(VkBuffer(uintptr_t(1))));
+    const ImageId color = graph.createImage("color", kColor);
+    graph.addPass("draw").read(table, Access::tableRead).clear(color, Access::colorWrite, kClear);
+    graph.addPass("change").update(table, Access::computeStorageWrite, 0);
+    graph.addPass("draw more").read(table, Access::tableRead).update(color, Access::colorBlend);
+    addOutput(graph, color);
+    const CompiledGraph compiled = graph.compile();
+    const auto barriers = [&](size_t pass) { return std::ranges::count(compiled.passes[pass].barriers, table.index, &Barrier::resource); };
+    CHECK(barriers(0) == 0);
+    CHECK(barriers(1) == 1);
+    CHECK(barriers(2) == 1);
+}
+
 TEST_CASE("frame graph: the drawing names passes, resources with sizes, and notes") {
     FrameGraph graph;
     const ImageId image = graph.createImage("radiance", kColor);

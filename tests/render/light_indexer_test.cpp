@@ -22,10 +22,8 @@ namespace {
 SAME_PLACE(position);
 SAME_PLACE(range);
 SAME_PLACE(direction);
-SAME_PLACE(inverseRange);
 SAME_PLACE(color);
 SAME_PLACE(coneScale);
-SAME_PLACE(coneOffset);
 SAME_PLACE(cosOuter);
 SAME_PLACE(type);
 SAME_PLACE(flags);

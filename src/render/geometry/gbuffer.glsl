@@ -37,15 +37,14 @@ vec3 unpackNormal(vec2 stored) {
 // Calver 2003, "Storing Position": PackPositionForGBuffer. The rasterizer has divided by w and biased x and y already.
 // Not below one step of 16 bits: 0 would be infinitely far.
 vec3 packPosition(vec4 fragCoord) { return vec3(fragCoord.xy / view.extent, max(fragCoord.z, 1.0 / 65535.0)); }
-// UnPackPositionFromGBuffer.
+// UnPackPositionFromGBuffer, into shading space.
 vec3 unpackPosition(vec3 stored) {
-    // The matrix of a camera that looks straight ahead: its other entries are zero.
-    const mat4 m = view.viewFromGBuffer;
-    const float inverseW = 1.0 / (m[2].w * stored.z + m[3].w);
-    return vec3(m[0].x * stored.x + m[3].x, m[1].y * stored.y + m[3].y, m[2].z * stored.z + m[3].z) * inverseW;
+    const mat4 m = view.shadingFromGBuffer;
+    const vec3 p = m[0].xyz * stored.x + m[1].xyz * stored.y + m[2].xyz * stored.z + m[3].xyz;
+    return p * (1.0 / (m[2].w * stored.z + m[3].w));  // the camera looks straight ahead: w depends on depth alone
 }
 
-// `s.Cs0` and `s.Cs1` already divided by the material's scales.
+// `s` in view space, `s.Cs0` and `s.Cs1` already divided by the material's scales.
 Texels packSurface(Surface s, vec4 fragCoord) {
     const vec2 normal = packNormal(s.N);
     if (kLayout == kCompact)
@@ -56,11 +55,12 @@ Texels packSurface(Surface s, vec4 fragCoord) {
                   vec4(s.Cs1, packIndex(s.objectId)));
 }
 
+// In shading space.
 Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
     Surface s;
     if (kLayout == kCompact) {
         s.P = unpackPosition(vec3(pixelCenter / view.extent, depth));
-        s.N = unpackNormal(t.c.xy);
+        s.N = shadingFromView(unpackNormal(t.c.xy));
         s.Cs0 = t.a.rgb * t.a.rgb;
         s.Cs1 = t.b.rgb * t.b.rgb;
         s.specularBlend = t.a.w;
@@ -69,8 +69,8 @@ Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
         s.objectId = unpackIndex(t.c.w);
         s.material = unpackIndex(t.d.x);
     } else {
-        s.P = kLayout == kCalver ? unpackPosition(t.a.xyz) : t.a.xyz;
-        s.N = unpackNormal(t.b.xy);
+        s.P = kLayout == kCalver ? unpackPosition(t.a.xyz) : shadingFromView(t.a.xyz);
+        s.N = shadingFromView(unpackNormal(t.b.xy));
         s.specularBlend = t.a.w;
         s.roughness = t.b.z;
         s.occlusion = t.b.w;

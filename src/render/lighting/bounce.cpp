@@ -8,7 +8,7 @@ namespace luciole::render {
 
 using frame::Access;
 
-static_assert(sizeof(shared::BouncePush) == 80);
+static_assert(sizeof(shared::BouncePush) == 16);
 
 // One-bounce radiosity, faked by many small lights (Trebilco 2009, "Fake Radiosity"; the lights are those of Dachsbacher and Stamminger
 // 2006, "Splatting Indirect Illumination", placed at every texel). Two passes: the scene from the light's own view, then a light for
@@ -30,12 +30,13 @@ void addBounce(frame::FrameGraph& graph, const GpuScene& scene, frame::BufferId 
     auto place = graph.addPass("bounce.lights");
     for (uint32_t i = 0; i < seen.targets.size(); ++i) place.read(seen.targets[i], Access::computeSampled, i);
     place.read(seen.depth, Access::computeSampled, 4)
+        .read(lights, Access::computeTableRead)
         .update(lights, Access::computeStorageWrite, 0)
         .record([&scene, constants](frame::PassContext& pass) {
             const Bounce& from = *scene.bounce();
             const auto tanOuter = float(std::tan(0.5 * double(from.camera.yFov)));
             pass.bindSet(shared::kFrameSet, scene.bounceSet());
-            pass.push(shared::BouncePush{scene.viewFrom(from.camera), from.light, from.first, from.grid, tanOuter});
+            pass.push(shared::BouncePush{from.light, from.first, from.grid, tanOuter});
             pass.dispatch("render/lighting/bounce.comp", constants, (from.grid * from.grid + 63) / 64);
         });
 }

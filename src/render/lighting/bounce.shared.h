@@ -12,7 +12,6 @@ const float kBounceNear = 0.01f;  // metres along the axis; what is nearer to th
 const float kBounceShare = 1.0f / 32.0f;
 
 struct BouncePush {
-    mat4 viewFromLight;
     uint light;  // that bounces: its place in the table
     uint first;  // small light
     uint grid;

@@ -10,5 +10,6 @@ layout(location = 0) out vec4 sum;
 void main() {
     const ShadingPoint p = shadingPoint(readSurface(ivec2(gl_FragCoord.xy)));
     sum = vec4(0);
-    for (uint i = 0u; i < slice.count; ++i) sum += contribution(p, lightAt(slice.first + i));
+    const LightSlice all = slice;  // read once, as eyeWorld is
+    for (uint i = 0u; i < all.count; ++i) sum += contribution(p, lightAt(all.first + i));
 }

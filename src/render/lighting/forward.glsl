@@ -58,10 +58,11 @@ void beginSurface() {
     const MaterialConstants m = material.lit;
     s.Cs0 *= m.cs0Scale;
     s.Cs1 *= m.cs1Scale;
+    s.N = shadingFromView(s.N);
     // As whoever only knows its depth.
 #ifdef MULTISAMPLED
     const vec2 at = floor(gl_FragCoord.xy) + kSamplePositions[shadingSample];
-    if (kBlended == 0u) s.P = unpackPosition(vec3(at / view.extent, texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x));
+    s.P = kBlended != 0u ? shadingFromView(s.P) : unpackPosition(vec3(at / view.extent, texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x));
 #else
     s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));
 #endif

@@ -7,6 +7,7 @@ layout(push_constant, scalar) uniform Push { LightSlice slice; };
 // Every light at every fragment, summed in registers.
 void main() {
     beginSurface();
-    for (uint i = 0u; i < slice.count; ++i) addLight(lightAt(slice.first + i));
+    const LightSlice all = slice;  // read once, as eyeWorld is
+    for (uint i = 0u; i < all.count; ++i) addLight(lightAt(all.first + i));
     endSurface();
 }

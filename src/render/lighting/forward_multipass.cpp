@@ -38,7 +38,7 @@ std::vector<Reach> reaches(const GpuScene& scene, bool multisampled) {
     const float rounding = 1e-6f * length(eyeWorld);  // of the way from world to view: 16 units of roundoff
     std::vector<Reach> reaches;
     for (uint32_t i = 0; i < lights.sources.size(); ++i) {
-        const shared::LightConstants& source = lights.sources[i];
+        const shared::LightConstants source = lights.at(i);
         Reach reach{.light = i, .linkGroup = source.linkGroup, .scissor = {{}, {uint32_t(view.extent.x), uint32_t(view.extent.y)}}};
         if (i >= lights.unbounded) {
             vec4 bounds;

@@ -473,13 +473,13 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     frame.attempt.list = list;
     frame.attempt.entries = entries;
     if (in.attempt.report)
-        for (const shared::LightConstants& light : in.scene.lights().sources) frame.sceneIndices.push_back(light.sceneIndex);
+        for (const shared::PackedLight& light : in.scene.lights().sources) frame.sceneIndices.push_back(light.sceneIndex);
     graph.output(x.counters);
     in.report->counters = x.counters;
     frame.stats.fellBack = list && settings.lidrPacking != LidrPacking::list;
     frame.stats.rounds = list ? in.attempt.slices : uint32_t(x.plan.rounds());
     frame.stats.withoutIndex = x.plan.rest.count;
-    frame.stats.tableBytes = lights * sizeof(shared::LightConstants);
+    frame.stats.tableBytes = lights * sizeof(shared::PackedLight);
     if (!x.tables.empty()) frame.stats.tableBytes = 0;
     for (const ImageId table : x.tables) frame.stats.tableBytes += graph.resources()[table.index].bytes();
     frame.stats.packing = "list";

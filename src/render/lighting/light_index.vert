@@ -24,10 +24,11 @@ void main() {
     const uint place = slice.first + gl_InstanceIndex;
     lightIndex = order[place];
     index = (kRemapped != 0u ? place : lightIndex) + 1u;
-    const LightConstants light = lights[lightIndex];
-    positionRange = vec4(light.position, light.range);
-    directionCosOuter = vec4(light.direction, light.cosOuter);
-    typeVolume = uvec2(light.type, light.volume);
+    const LightConstants shading = lightAt(lightIndex);
+    positionRange = vec4(shading.position, shading.range);
+    directionCosOuter = vec4(shading.direction, shading.cosOuter);
+    typeVolume = uvec2(shading.type, shading.volume);
+    const LightConstants light = lightInView(lightIndex);
     const uint shape = shapes[lightIndex];
     gl_Position = vec4(0, 0, 0, 1);  // all corners in one place: nothing
     if (shape == kShapeScreen) {

@@ -34,7 +34,7 @@ void main() {
     const uint first = kCounterCount + lightIndex * kLostWords;
     atomicAdd(counters[first], 1u);
     const vec3 P = unpackPosition(vec3(sampleHere() / view.extent, surfaceDepth()));
-    const float radiance = surfaceDepth() > 0.0 ? dot(arrivalAt(lights[lightIndex], P).E, vec3(0.2126, 0.7152, 0.0722)) / kPi : 0.0;
+    const float radiance = surfaceDepth() > 0.0 ? dot(arrivalAt(lightAt(lightIndex), P).E, vec3(0.2126, 0.7152, 0.0722)) / kPi : 0.0;
     const uint amount = uint(clamp(radiance * 65536.0 + 0.5, 0.0, 4294967040.0));
     if (atomicAdd(counters[first + 1u], amount) > 0xffffffffu - amount) atomicAdd(counters[first + 2u], 1u);
 }

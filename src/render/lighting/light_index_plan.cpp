@@ -198,18 +198,18 @@ std::vector<uint32_t> sortIntoArrays(const std::vector<uint32_t>& lights,
 
 IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout, const SortedLights& lights,
                       const VolumeTables& volumes, const ViewConstants* view, bool oneRound) {
-    const auto& sources = lights.sources;
+    const auto count = uint32_t(lights.sources.size());
     // Which set of images a light is drawn into; kNoIndex: none.
     const auto setOf = [&](uint32_t i) -> uint32_t {
-        const LightConstants& light = sources[i];
+        const uint32_t type = lights.at(i).type;
         if (settings.lidrTypes == LidrTypes::flag) return 0;
         const bool shaped = i >= lights.unbounded && i < lights.unbounded + lights.shaped;
-        if (shaped && light.type == kLightPoint) return 0;
-        return shaped && light.type == kLightSpot && settings.lidrTypes == LidrTypes::targets ? 1 : kNoIndex;
+        if (shaped && type == kLightPoint) return 0;
+        return shaped && type == kLightSpot && settings.lidrTypes == LidrTypes::targets ? 1 : kNoIndex;
     };
     std::vector<std::vector<uint32_t>> drawn(settings.lidrTypes == LidrTypes::targets ? 2 : 1);
     std::vector<uint32_t> rest;
-    for (uint32_t i = 0; i < sources.size(); ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         const uint32_t set = setOf(i);
         (set == kNoIndex ? rest : drawn[set]).push_back(i);
     }
@@ -217,10 +217,10 @@ IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout,
     IndexPlan plan;
     std::vector<uint32_t> dropped;
     const bool byImportance = settings.onOverflow == OnOverflow::priority;
-    plan.remapped = byImportance && sources.size() > layout.mostIndex;
+    plan.remapped = byImportance && count > layout.mostIndex;
     if (byImportance)
         for (auto& set : drawn)
-            std::ranges::stable_sort(set, std::greater<>{}, [&](uint32_t i) { return importanceOf(sources[i]); });
+            std::ranges::stable_sort(set, std::greater<>{}, [&](uint32_t i) { return importanceOf(lights.at(i)); });
     if (plan.remapped) {
         uint32_t room = layout.mostIndex;
         for (auto& set : drawn) {
@@ -236,8 +236,8 @@ IndexPlan planIndices(const RenderSettings& settings, const IndexLayout& layout,
     std::vector<std::vector<uint32_t>> overlaps;
     if (sorted) {
         std::vector<Box> boxes;
-        for (const LightConstants& light : sources)
-            boxes.push_back(view ? boxOnScreen(light, volumes, *view) : boxInWorld(light, volumes));
+        for (uint32_t i = 0; i < count; ++i)
+            boxes.push_back(view ? boxOnScreen(lights.at(i), volumes, *view) : boxInWorld(lights.at(i), volumes));
         overlaps = overlapsOf(boxes);
     }
     const uint32_t arrays = extremes ? layout.packing.passes : layout.overlap;

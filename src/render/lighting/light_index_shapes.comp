@@ -10,7 +10,7 @@ layout(set = 1, binding = kPassStorage + kIndexShapes, scalar) writeonly buffer 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= view.lightCount) return;
-    const LightConstants light = lights[i];
+    const LightConstants light = lightInView(i);
     vec4 bounds = vec4(0);
     if (light.volume != kNoIndex) bounds = volumeBall(view, volumes[light.volume]);
     shapes[i] = indexShapeOf(view, light, indexShape(view, light, bounds));

@@ -27,7 +27,7 @@ ShadingPoint pointHere() {
     const vec4 stored = texelFetch(storedSurface, pixel, 0);
     Surface s;
     s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, texelFetch(storedDepth, pixel, 0).x));
-    s.N = unpackNormal(stored.xy);
+    s.N = shadingFromView(unpackNormal(stored.xy));
     s.Cs0 = vec3(0);
     s.Cs1 = vec3(0);
     s.specularBlend = 0.0;
@@ -58,7 +58,8 @@ void main() {
 #endif
     const ShadingPoint p = pointHere();
 #ifdef EVERYWHERE
-    for (uint i = 0u; i < slice.count; ++i) add(p, lightAt(slice.first + i));
+    const LightSlice all = slice;  // read once, as eyeWorld is
+    for (uint i = 0u; i < all.count; ++i) add(p, lightAt(all.first + i));
 #else
     add(p, lightAt(lightIndex));
 #endif

@@ -5,10 +5,10 @@
 #include "render/shaders/illuminate.glsl"
 
 struct LightTexels {
-    vec4 place;      // position, 1 / range
+    vec4 place;      // position, type and flags
     vec4 color;      // colour, range
     vec4 direction;  // direction, cosine of the outer angle
-    vec4 kind;       // the cone's scale and offset, type and flags, scene index
+    vec4 kind;       // the cone's scale, scene index
     vec4 rows;       // attenuation, falloff, volume, link group
 };
 
@@ -17,28 +17,24 @@ float stored(uint index) { return index == kNoIndex ? -1.0 : float(index); }
 uint loaded(float stored_) { return stored_ < 0.0 ? kNoIndex : uint(stored_); }
 
 LightTexels toTexels(LightConstants light) {
-    return LightTexels(vec4(light.position, light.inverseRange), vec4(light.color, light.range), vec4(light.direction, light.cosOuter),
-                       vec4(light.coneScale, light.coneOffset, float(light.type + 256u * light.flags), float(light.sceneIndex)),
+    return LightTexels(vec4(light.position, float(light.type + 256u * light.flags)), vec4(light.color, light.range), vec4(light.direction, light.cosOuter),
+                       vec4(light.coneScale, float(light.sceneIndex), 0, 0),
                        vec4(stored(light.attenuation), stored(light.falloff), stored(light.volume), stored(light.linkGroup)));
 }
 
 LightConstants toLight(LightTexels texels) {
     LightConstants light;
     light.position = texels.place.xyz;
-    light.inverseRange = texels.place.w;
+    light.type = uint(texels.place.w) & 255u;
+    light.flags = uint(texels.place.w) >> 8u;
     light.color = texels.color.rgb;
     light.range = texels.color.w;
-    light.type = kLightPoint;
-    light.flags = kLightDiffuse | kLightSpecular;
     light.attenuation = light.falloff = light.linkGroup = light.volume = kNoIndex;
     if (usesLights(kNeedsKinds)) {
         light.direction = texels.direction.xyz;
         light.cosOuter = texels.direction.w;
         light.coneScale = texels.kind.x;
-        light.coneOffset = texels.kind.y;
-        light.type = uint(texels.kind.z) & 255u;
-        light.flags = uint(texels.kind.z) >> 8u;
-        light.sceneIndex = uint(texels.kind.w);
+        light.sceneIndex = uint(texels.kind.y);
     }
     if (usesLights(kNeedsRows)) {
         light.attenuation = loaded(texels.rows.x);

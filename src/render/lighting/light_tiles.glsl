@@ -23,9 +23,10 @@ uint sliceOf(float depth, float farthest) { return min(sliceFrom0(depth) - slice
 // Whether there can be a surface: in perspective depth 0 is infinitely far.
 bool holdsSurface(float depth) { return depth > 0.0 || view.orthographic != 0u; }
 
-// Metres; no more than what can be squared twice.
+// Metres along the view axis; no more than what can be squared twice.
 float distanceOf(float depth) {
+    const vec2 z = vec2(view.clipFromView[2].z, view.clipFromView[3].z), w = vec2(view.clipFromView[2].w, view.clipFromView[3].w);
     const float far = 1e9;
-    return depth > 0.0 || view.orthographic != 0u ? min(-unpackPosition(vec3(0.5, 0.5, depth)).z, far) : far;
+    return depth > 0.0 || view.orthographic != 0u ? min((z.y - depth * w.y) / (z.x - depth * w.x), far) : far;
 }
 #endif

@@ -5,14 +5,6 @@
 #include "render/shaders/types.shared.h"
 SHARED_BEGIN
 
-// The difference to the eye first: it is exact, or nearly, for what is near the eye, however far both are from the origin.
-SHARED_FN LightConstants inView(LightConstants source, mat4 viewFromWorld, vec3 eyeWorld) {
-    LightConstants light = source;
-    light.position = mat3(viewFromWorld) * (source.position - eyeWorld);
-    light.direction = mat3(viewFromWorld) * source.direction;
-    return light;
-}
-
 const float kHalfTurn = 3.14159265358979f;
 
 // A shape of this radius encloses whatever has a depth, metres.

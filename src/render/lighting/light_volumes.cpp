@@ -23,7 +23,7 @@ void drawMeshLights(PassContext& pass, const GpuScene& scene, const std::string&
     const PassContext::Prepared lit = pass.prepare(draw);
     pass.commands.setCullMode(vk::CullModeFlagBits::eNone);
     for (uint32_t light = first; light < first + lights.meshes; ++light) {
-        const shared::VolumeConstants& volume = scene.volumeOf(lights.sources[light]);
+        const shared::VolumeConstants& volume = scene.volumeOf(lights.at(light));
         const vec4 bounds = shared::projectedBounds(scene.view(), shared::volumeBall(scene.view(), volume));
         if (scene.view().cullLights != 0 && !shared::coversPixel(bounds, scene.view().extent)) continue;
         pass.bind(count);

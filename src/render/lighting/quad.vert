@@ -8,7 +8,7 @@ layout(location = 0) flat out uint lightIndex;
 // Optimisations").
 void main() {
     lightIndex = gl_InstanceIndex;
-    const LightConstants light = lights[lightIndex];
+    const LightConstants light = lightInView(lightIndex);
     ShapeBounds bounds;
     if (light.volume == kNoIndex) {
         bounds = shapeBounds(view, enclosingShape(light));

@@ -34,7 +34,7 @@ struct LightingInputs {
     const GBuffer& gbuffer;
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
-    frame::BufferId lights;           ///< the table of lights in view space, as the frame's set names it
+    frame::BufferId lights;           ///< the table of lights, which the frame's set names
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
@@ -77,11 +77,7 @@ std::string yardstickOf(const LightingTechnique& technique);
 /// \throws Error(usage) listing the names
 const LightingTechnique& techniqueNamed(const std::string& name);
 
-/// The pass that takes the lights into view space, and, if there is a bounce, those that place its lights. \return what LightingInputs
-/// calls `lights`
-frame::BufferId addLightsInView(frame::FrameGraph& graph, const GpuScene& scene);
-
-/// The passes that place the lights of the scene's bounce (docs/techniques/bounce.md) in the table of lights in view space.
+/// The passes that place the lights of the scene's bounce (docs/techniques/bounce.md) in the table of lights.
 void addBounce(frame::FrameGraph& graph, const GpuScene& scene, frame::BufferId lights);
 
 /// The pass that sets `radiance` to ambience and emission, before any technique adds to it.

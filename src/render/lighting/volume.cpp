@@ -15,7 +15,7 @@ void forEachVolume(const GpuScene& scene, const Draw& draw) {
     const SortedLights& lights = scene.lights();
     for (uint32_t light = lights.unbounded; light < lights.unbounded + lights.shaped; ++light) {
         const VolumeDraw volume =
-            shared::volumeDraw(view, shared::inView(lights.sources[light], view.viewFromWorld, vec3(view.worldFromView[3])));
+            shared::volumeDraw(view, shared::inView(lights.at(light), view.viewFromWorld, vec3(view.worldFromView[3])));
         if (volume.visible) draw(light, volume);
     }
 }

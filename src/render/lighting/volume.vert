@@ -9,5 +9,5 @@ invariant gl_Position;  // what marks the stencil and what lights are two pipeli
 // A closed convex mesh around what the light can reach (Calver 2003, "Convex Light Volumes"). The instance is the light.
 void main() {
     lightIndex = gl_InstanceIndex;
-    gl_Position = volumePosition(lights[lightIndex], lod, gl_VertexIndex);
+    gl_Position = volumePosition(lightInView(lightIndex), lod, gl_VertexIndex);
 }

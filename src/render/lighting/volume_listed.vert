@@ -9,5 +9,5 @@ layout(location = 0) flat out uint lightIndex;
 // A closed convex mesh around what the light can reach (Calver 2003, "Convex Light Volumes"). The instance is a place in a list of lights.
 void main() {
     lightIndex = list[firstPlace + gl_InstanceIndex];
-    gl_Position = volumePosition(lights[lightIndex], lod, gl_VertexIndex);
+    gl_Position = volumePosition(lightInView(lightIndex), lod, gl_VertexIndex);
 }

@@ -45,7 +45,7 @@ void main() {
     uint class_ = kCulled;
     if (place < shaped.count) {
         if (kStage == 0u) {
-            const VolumeDraw draw = volumeDraw(view, lights[shaped.first + place]);
+            const VolumeDraw draw = volumeDraw(view, lightInView(shaped.first + place));
             if (draw.visible) class_ = draw.lod * 2u + uint(draw.frontFaces);
             classes[place] = class_;
         } else {

@@ -8,6 +8,6 @@ invariant gl_Position;  // what marks the stencil and what lights are two pipeli
 // A mesh that bounds a light, triangle by triangle.
 void main() {
     lightIndex = gl_InstanceIndex;
-    const vec3 fromEye = volumeVertices[gl_VertexIndex] - view.worldFromView[3].xyz;
+    const vec3 fromEye = volumeVertices[gl_VertexIndex] - eyeWorld;
     gl_Position = view.clipFromView * vec4(mat3(view.viewFromWorld) * fromEye, 1);
 }

@@ -13,12 +13,13 @@ layout(location = 3) out vec4 cs1;
 void main() {
     const Surface s = readSurface(ivec2(gl_FragCoord.xy));
     uint count = 0u;
-    for (uint i = 0u; i < slice.count; ++i) count += uint(reaches(lightAt(slice.first + i), s.P, s.objectId));
+    const LightSlice all = slice;  // read once, as eyeWorld is
+    for (uint i = 0u; i < all.count; ++i) count += uint(reaches(lightAt(all.first + i), s.P, s.objectId));
     // Later slices are added to the first: they bring their lights only.
     const float once = slice.first == 0u ? 1.0 : 0.0;
     // materials[0] stands for "no surface", so the scene's indices are one lower.
-    scalars = vec4(once * vec3(-s.P.z, float(s.material) - 1.0, float(s.objectId)), float(count));
-    normal = vec4(once * (mat3(view.worldFromView) * s.N), 0);
+    scalars = vec4(once * vec3(-viewFromShading(s.P).z, float(s.material) - 1.0, float(s.objectId)), float(count));
+    normal = vec4(once * (s.N), 0);
     cs0 = vec4(once * s.Cs0, 0);
     cs1 = vec4(once * s.Cs1, 0);
 }

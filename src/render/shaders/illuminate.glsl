@@ -1,5 +1,5 @@
 // The light model: one light at one surface point. Every technique calls `illuminate`, or its two halves, and none repeats it.
-// Formulas and units: docs/conventions.md.
+// Positions and directions are in shading space. Formulas, units and spaces: docs/conventions.md.
 #ifndef LUCIOLE_ILLUMINATE_GLSL
 #define LUCIOLE_ILLUMINATE_GLSL
 #include "luciole/light_index.glsl"
@@ -8,7 +8,6 @@
 
 const float kPi = 3.14159265358979;
 
-bool usesLights(uint bit) { return (kLights & bit) != 0u; }
 
 // Linear along the function, none between functions (Calver 2003, "Linear Interpolation", the manual method: it is exact
 // where a filter unit keeps 8 bits of the weight). `t` in [0, 1] spans the function's domain.
@@ -20,9 +19,9 @@ bool lambertian(LightConstants light) { return usesLights(kUsesLambertian) && (l
 // KHR_lights_punctual "Range Property", or Calver 2003 "Shaped Lights": Attenuate.
 float attenuate(LightConstants light, float dist) {
     if (dist >= light.range) return 0.0;
-    const float x = dist * light.inverseRange;
+    const float x = dist / light.range;
     if (usesLights(kUsesCurves) && light.attenuation != kNoIndex) return lookUp(light.attenuation, x).x;
-    if (!lambertian(light)) return lucioleInverseSquare(dist, light.inverseRange);
+    if (!lambertian(light)) return lucioleInverseSquare(dist, light.range);
     const float x2 = x * x;
     return clamp(1.0 - x2 * x2, 0.0, 1.0) / (dist * dist + light.coneScale);
 }
@@ -30,7 +29,7 @@ float attenuate(LightConstants light, float dist) {
 // KHR_lights_punctual "Inner and Outer Cone Angles", or Calver 2003 "Shaped Lights": AngularAttenuate.
 float angularAttenuate(LightConstants light, float cosAngle) {
     if (lambertian(light)) return max(cosAngle, 0.0);
-    if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return lucioleCone(cosAngle, light.coneScale, light.coneOffset);
+    if (!usesLights(kUsesCurves) || light.falloff == kNoIndex) return lucioleCone(cosAngle, light.cosOuter, light.coneScale);
     return cosAngle > light.cosOuter ? lookUp(light.falloff, bias(cosAngle)).x : 0.0;
 }
 
@@ -71,7 +70,7 @@ bool insideVolume(uint volume, vec3 positionWorld) {
 }
 
 bool inVolume(LightConstants light, vec3 P) {
-    return light.volume == kNoIndex || insideVolume(light.volume, (view.worldFromView * vec4(P, 1)).xyz);
+    return light.volume == kNoIndex || insideVolume(light.volume, P + eyeWorld);
 }
 
 // Whether any light can arrive: linked, within range, cone and volume. The volume last, as it costs most.
@@ -99,8 +98,7 @@ Arrival arrivalAt(LightConstants light, vec3 P) {
         const float dist = length(toLight);
         arrival.L = toLight * (1.0 / max(dist, 1e-6));
         float strength = attenuate(light, dist);
-        if (usesLights(kUsesSpot) && light.type == kLightSpot)
-            strength *= angularAttenuate(light, -dot(arrival.L, light.direction));
+        if (usesLights(kUsesSpot)) strength *= angularAttenuate(light, -dot(arrival.L, light.direction));
         arrival.E *= strength;
     }
     return arrival;
@@ -123,7 +121,7 @@ ShadingPoint shadingPoint(Surface s, MaterialConstants m) {
     ShadingPoint p;
     p.s = s;
     p.m = m;
-    p.V = view.orthographic != 0u ? vec3(0, 0, 1) : normalize(-s.P);
+    p.V = view.orthographic != 0u ? view.worldFromView[2].xyz : normalize(-s.P);
     const float alpha = max(s.roughness, 0.045) * max(s.roughness, 0.045);
     p.F0 = mix(vec3(0.04), s.Cs0, s.specularBlend);
     p.diffuse = (1.0 - p.F0) * s.Cs0 * ((1.0 - s.specularBlend) / kPi);
@@ -194,7 +192,7 @@ LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {
         keep = vec2(light.flags & kLightDiffuse, (light.flags & kLightSpecular) >> 1u);
-        if ((light.flags & kLightInfiniteViewer) != 0u) shapedV = vec3(0, 0, 1);
+        if ((light.flags & kLightInfiniteViewer) != 0u) shapedV = view.worldFromView[2].xyz;
     }
     if (hasEquation(p, kEquationMetallicRoughness)) shares = sharesMetallicRoughness(p, arrival.L, keep);
     if (hasEquation(p, kEquationShaped)) shares = sharesShaped(p, shapedV, arrival.L, keep);
@@ -213,7 +211,7 @@ vec3 illuminate(ShadingPoint p, LightConstants light) { return shade(p, lightTer
 
 // The light that is there before any light: Calver 2003, "Full screen lights", HemisphereEmissiveLightShader.
 vec3 initialLight(Surface s, MaterialConstants m) {
-    const vec3 ambience = mix(view.ground, view.sky, 0.5 + 0.5 * dot(s.N, view.upView));
+    const vec3 ambience = mix(view.ground, view.sky, 0.5 + 0.5 * dot(s.N, view.upWorld));
     const vec3 ambient = isEquation(kEquationMetallicRoughness, m) ? s.Cs0 * s.occlusion : m.kAmbient;
     return ambient * ambience + (usesMaterials(kMaterialsEmit) ? m.kEmissive * s.Cs1 : vec3(0));
 }

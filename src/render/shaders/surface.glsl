@@ -3,8 +3,8 @@
 #define LUCIOLE_SURFACE_GLSL
 
 struct Surface {
-    vec3 P;               // view space, metres
-    vec3 N;               // view space, unit
+    vec3 P;               // metres; shading space, but view space while the geometry phase makes it
+    vec3 N;               // likewise, unit
     vec3 Cs0;
     vec3 Cs1;
     float specularBlend;  // metallic-roughness: metallic

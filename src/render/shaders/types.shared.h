@@ -1,22 +1,20 @@
 // Everything that the host writes and shaders read. Scalar block layout, so that both compilers lay it out alike.
 #ifndef LUCIOLE_TYPES_SHARED_H
 #define LUCIOLE_TYPES_SHARED_H
-#include "shared.h"
+#include "render/shaders/light.shared.h"
 SHARED_BEGIN
-
-const uint kNoIndex = 0xffffffffu;
 
 // One view of the scene. Set 0, kFrameView.
 struct ViewConstants {
     mat4 clipFromView;
     mat4 viewFromWorld;
     mat4 worldFromView;
-    mat4 viewFromGBuffer;  // from (pixel / extent, depth, 1), un-biasing included (Calver 2003, "Storing Position")
+    mat4 shadingFromGBuffer;  // from (pixel / extent, depth, 1), un-biasing included (Calver 2003, "Storing Position")
     vec3 sky;              // ambience, radiance
     uint lightCount;
     vec3 ground;
     uint linkWords;        // 32-bit words of one row of the link table
-    vec3 upView;
+    vec3 upWorld;
     uint orthographic;
     vec2 extent;           // pixels
     float exposure;        // factor
@@ -87,34 +85,6 @@ struct DrawnMaterial {
     MaterialConstants lit;
 };
 
-// One light. In world space: set 0, kFrameSources. In view space, made anew each frame: set 0, kFrameLights.
-// Types as enum LightType.
-const uint kLightDirectional = 0u;
-const uint kLightPoint = 1u;
-const uint kLightSpot = 2u;
-const uint kLightDiffuse = 1u;         // flags
-const uint kLightSpecular = 2u;
-const uint kLightInfiniteViewer = 4u;
-const uint kLightLambertian = 8u;      // a patch of a surface that shines: docs/conventions.md, "Bounce"
-
-struct LightConstants {
-    vec3 position;
-    float range;        // metres; a very large number where the light has none
-    vec3 direction;     // where it shines to
-    float inverseRange; // 0 where the light has no range
-    vec3 color;         // lux or candela
-    float coneScale;    // glTF's cone: clamp(cos * coneScale + coneOffset)^2; of a Lambertian patch: s^2
-    float coneOffset;
-    float cosOuter;
-    uint type;
-    uint flags;
-    uint attenuation;   // row of the function table, or kNoIndex
-    uint falloff;       // likewise
-    uint linkGroup;     // row of the link table, or kNoIndex
-    uint volume;        // index into the volumes, or kNoIndex
-    uint sceneIndex;    // in Scene::lights; the tables are sorted by shape
-};
-
 // A closed mesh that bounds a light, world space. Set 0, kFrameVolumes.
 struct VolumeConstants {
     uint firstVertex;  // in the volumes' vertices: three per triangle
@@ -148,10 +118,12 @@ const uint kUsesCurves = 8u;         // an attenuation or falloff function
 const uint kUsesLinks = 16u;
 const uint kUsesContributions = 32u; // a diffuse-only, specular-only or infinite-viewer light
 const uint kUsesUniformLights = 64u; // all lights fit into a uniform buffer, the faster way to read them
-const uint kUniformLights = 780u;    // of 84 bytes in 64 KiB
+const uint kUniformLights = 1170u;   // of 56 bytes in 64 KiB
 const uint kUsesVolumes = 128u;      // a light that is bounded by a mesh, and nothing else has seen to that
 const uint kCountsLights = 256u;     // passes add up what they evaluate instead of light (contribution.glsl)
 const uint kUsesLambertian = 512u;
+const uint kUsesUniformLightKinds = 1024u;  // likewise all kinds of lights
+const uint kUniformLightKinds = 4096u;      // of 16 bytes
 
 SHARED_END
 #endif
