@@ -13,8 +13,7 @@ layout(constant_id = 9) const uint kParts = 1u;
 float depthHere() {
 #ifdef MULTISAMPLED
     if (kBlended == 0u) return texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x;
-    const vec4 clip = view.clipFromView * vec4(HERE(positionView), 1);
-    return clip.z / clip.w;
+    return depthOf(HERE(positionView));
 #else
     return gl_FragCoord.z;
 #endif

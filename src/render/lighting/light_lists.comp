@@ -152,7 +152,9 @@ void main() {
     if (part == 0u) atomicMax(counters[kListLongest], offsets[(index + 1u) * kParts] - offsets[index * kParts]);
     if (list == 0u) {
         counters[kListFound] = lists;
-        counters[kListAllEntries] += offsets[lists * kParts];
+        const uint more = offsets[lists * kParts];
+        counters[kListAllEntries] += more;
+        if (counters[kListAllEntries] < more) ++counters[kListAllEntriesHigh];
     }
 #else
     uint place = 0u;

@@ -29,8 +29,7 @@ std::vector<uint32_t> with(std::vector<uint32_t> constants, std::initializer_lis
 }
 
 /// Where surfaces that blend lie, by tile.
-BufferId addBlendedExtent(FrameGraph& graph, const LightingInputs& in, const std::string& name, uint32_t tileSize, uint32_t tiles) {
-    const BufferId blended = graph.createBuffer("light-lists.blended", tiles * 8ull);
+void addBlendedExtent(FrameGraph& graph, const LightingInputs& in, const std::string& name, uint32_t tileSize, BufferId blended) {
     addZero(graph, name + "zero", blended);
     graph.addPass(name + "blended")
         .read(in.depth, Access::depthTest)
@@ -40,7 +39,6 @@ BufferId addBlendedExtent(FrameGraph& graph, const LightingInputs& in, const std
             testDepth(pass, Surfaces::blended);
             scene.drawBlended(pass, {{.fragment = fragment, .frame = constants, .own = {tileSize}}});
         });
-    return blended;
 }
 
 void addTiles(FrameGraph& graph, const LightingInputs& in, const std::string& name, const LightLists& lists, std::optional<BufferId> clusterCounts,
@@ -88,22 +86,36 @@ void addLists(FrameGraph& graph, const LightingInputs& in, const std::string& na
     });
 }
 
+/// What the loop over a list goes through, at most: lights, and triangles of the meshes that bound them.
+struct LoopWork {
+    uint64_t meshes = 0, triangles = 0;  ///< lights that a mesh bounds; of the largest mesh
+    uint64_t rounds(uint64_t lights) const { return lights + std::min(lights, meshes) * triangles; }
+};
+
+LoopWork loopWork(const GpuScene& scene) {
+    LoopWork work{.meshes = scene.lights().meshes};
+    for (const VolumeConstants& mesh : scene.volumes().volumes) work.triangles = std::max<uint64_t>(work.triangles, mesh.vertexCount / 3);
+    return work;
+}
+
 /// What the counters say of the frame.
-std::optional<LightingAttempt> judge(LightListStats stats, LightingAttempt attempt, uint64_t largestBuffer, std::span<const uint32_t> counters,
-                                     FrameStats& frame) {
-    stats.entries = counters[kListAllEntries];
+std::optional<LightingAttempt> judge(LightListStats stats, LightingAttempt attempt, uint64_t largestBuffer, const LoopWork& work,
+                                     std::span<const uint32_t> counters, FrameStats& frame) {
+    stats.entries = uint64_t(counters[kListAllEntriesHigh]) << 32 | counters[kListAllEntries];
     stats.longest = counters[kListLongest];
     stats.lists = counters[kListFound];
     frame.lightLists = stats;
     const uint64_t needed = counters[kResultTotal];
+    // The sum of all lengths is of 32 bits, as each length is.
+    const bool mayOverflow = uint64_t(stats.lists) * stats.longest > ~0u;
+    if (mayOverflow || work.rounds(stats.longest) > kLightsPerDraw) {
+        attempt.slices *= 2;
+        return attempt;
+    }
     if (needed > attempt.entries) {
         // A quarter more, so that a moving view does not ask for more each time.
         attempt.entries = needed + needed / 4;
         if (attempt.entries * 4 > largestBuffer) attempt.slices *= 2, attempt.entries = largestBuffer / 4;
-        return attempt;
-    }
-    if (stats.longest > kLightsPerDraw) {
-        attempt.slices *= 2;
         return attempt;
     }
     return std::nullopt;
@@ -119,14 +131,14 @@ uint32_t tileSizeOf(const RenderSettings& settings) {
     }
 }
 
-std::vector<ListPage> listPages(uint32_t count, uint32_t pages) {
+std::vector<ListPage> listPages(uint32_t count, uint32_t pages, uint64_t mostParts) {
     const uint32_t each = std::max(1u, (count + pages - 1) / pages);
     uint32_t level = 0;
     while (level < kTreeLevels && 1u << (kTreeBits * (level + 1)) <= each) ++level;
     // A table that fits below one root is one part.
     if (level < kTreeLevels && pages == 1) ++level;
     const uint32_t part = 1u << (kTreeBits * level);
-    const uint32_t parts = (each + part - 1) / part;
+    const auto parts = uint32_t(std::min<uint64_t>((each + part - 1) / part, mostParts));
     std::vector<ListPage> result;
     for (uint32_t first = 0; first < count || first == 0; first += parts * part) {
         const uint32_t here = std::min(parts * part, count - first);
@@ -142,23 +154,37 @@ void addLightLists(FrameGraph& graph, const LightingInputs& in, ListsOf which,
     const bool clustered = which == ListsOf::clusters;
     const bool blends = clustered && in.scene.hasBlended();
     LightLists lists{.clustered = clustered, .tileSize = tileSizeOf(in.settings)};
-    lists.tileCount = tilesAcross(extent.width, lists.tileSize) * tilesAcross(extent.height, lists.tileSize);
     const uint64_t samples = in.settings.msaa != Msaa::x1 ? 4 : 1;
-    const uint64_t most = clustered && !blends
-                              ? std::min(uint64_t(lists.tileCount) * kSlices, uint64_t(extent.width) * extent.height * samples)
-                              : uint64_t(lists.tileCount) * (clustered ? kSlices : 1);
-    lists.tiles = graph.createBuffer("light-lists.tiles", lists.tileCount * sizeof(Tile));
-    const BufferId counters = graph.createBuffer("light-lists.counters", kListCounters * 4);
+    const auto mostLists = [&]() -> uint64_t {
+        lists.tileCount = tilesAcross(extent.width, lists.tileSize) * tilesAcross(extent.height, lists.tileSize);
+        if (!clustered) return lists.tileCount;
+        const uint64_t clusters = uint64_t(lists.tileCount) * kSlices;
+        return blends ? clusters : std::min(clusters, uint64_t(extent.width) * extent.height * samples);
+    };
+    // Where the lists of all parts begin has to fit a buffer, too: larger tiles, and then more pages of fewer parts, see to that.
+    uint64_t most = mostLists();
+    for (; (most + 1) * 4 > in.largestBuffer; most = mostLists()) lists.tileSize *= 2;
+    const uint64_t mostParts = (in.largestBuffer / 4 - 1) / most;
+    uint64_t bytes = 0;
+    const auto createBuffer = [&](const std::string& what, uint64_t size) {
+        bytes += size;
+        return graph.createBuffer("light-lists." + what, size);
+    };
+    lists.tiles = createBuffer("tiles", lists.tileCount * sizeof(Tile));
+    const BufferId counters = createBuffer("counters", kListCounters * 4);
     addZero(graph, name + "zero", counters);
     std::optional<BufferId> clusterCounts, clusters, extents;
-    if (clustered) clusterCounts = graph.createBuffer("light-lists.clusters-by-tile", lists.tileCount * 4ull);
-    if (blends) extents = addBlendedExtent(graph, in, name, lists.tileSize, lists.tileCount);
+    if (clustered) clusterCounts = createBuffer("clusters-by-tile", lists.tileCount * 4ull);
+    if (blends) {
+        extents = createBuffer("blended", lists.tileCount * 8ull);
+        addBlendedExtent(graph, in, name, lists.tileSize, *extents);
+    }
     addTiles(graph, in, name, lists, clusterCounts, extents);
     BufferId size = addKnownSize(graph, lists.tileCount);
     if (clustered) {
-        lists.firstClusters = graph.createBuffer("light-lists.first-clusters", (lists.tileCount + 1) * 4ull);
-        clusters = graph.createBuffer("light-lists.clusters", most * 4);
-        const BufferId found = graph.createBuffer("light-lists.found", kResultCount * 4);
+        lists.firstClusters = createBuffer("first-clusters", (lists.tileCount + 1) * 4ull);
+        clusters = createBuffer("clusters", most * 4);
+        const BufferId found = createBuffer("found", kResultCount * 4);
         addZero(graph, name + "zero", found);
         addPrefixSum(graph, name + "clusters.", {.counts = *clusterCounts, .places = lists.firstClusters, .result = found, .most = lists.tileCount, .size = size});
         graph.addPass(name + "clusters")
@@ -173,26 +199,25 @@ void addLightLists(FrameGraph& graph, const LightingInputs& in, ListsOf which,
     LightingAttempt attempt = in.attempt;
     const uint64_t usual = std::max<uint64_t>(uint64_t(lists.tileCount) * 64, 4096);
     if (attempt.entries == 0) attempt.entries = std::min<uint64_t>(usual, in.largestBuffer / 4);
-    const std::vector<ListPage> pages = listPages(in.scene.lightCount(), attempt.slices);
+    const std::vector<ListPage> pages = listPages(in.scene.lightCount(), attempt.slices, mostParts);
     lists.pages = uint32_t(pages.size());
-    uint64_t bytes = 0;
     for (const ListPage& page : pages) {
         lists.parts = page.parts;
-        const BufferId counts = graph.createBuffer("light-lists.counts", most * page.parts * 4);
-        lists.offsets = graph.createBuffer("light-lists.offsets", (most * page.parts + 1) * 4);
-        lists.entries = graph.createBuffer("light-lists.entries", attempt.entries * 4);
+        const BufferId counts = createBuffer("counts", most * page.parts * 4);
+        lists.offsets = createBuffer("offsets", (most * page.parts + 1) * 4);
+        lists.entries = createBuffer("entries", attempt.entries * 4);
         addLists(graph, in, name, lists, clusters, page, most, counts, counters, false);
         addPrefixSum(graph, name, {.counts = counts, .places = lists.offsets, .result = counters, .most = most * page.parts, .size = size, .factor = page.parts});
         addLists(graph, in, name, lists, clusters, page, most, counts, counters, true);
         addShading(lists, &page == &pages.front(), &page == &pages.back());
-        for (const BufferId buffer : {counts, lists.offsets, lists.entries}) bytes += graph.resources()[buffer.index].bytes();
     }
     if (!in.report) return;
-    for (const BufferId buffer : {lists.tiles, counters}) bytes += graph.resources()[buffer.index].bytes();
     graph.output(counters);
     in.report->counters = counters;
     const LightListStats stats{.tileSize = lists.tileSize, .pages = uint32_t(pages.size()), .bytes = bytes};
-    in.report->judge = [=, largest = in.largestBuffer](std::span<const uint32_t> counted, FrameStats& frame) { return judge(stats, attempt, largest, counted, frame); };
+    in.report->judge = [=, largest = in.largestBuffer, work = loopWork(in.scene)](std::span<const uint32_t> counted, FrameStats& frame) {
+        return judge(stats, attempt, largest, work, counted, frame);
+    };
 }
 
 }  // namespace luciole::render

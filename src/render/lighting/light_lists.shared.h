@@ -16,7 +16,7 @@ const uint kListCounts = 5u;        // while lists are made: by cluster and part
 const uint kListDepth = 15u;        // sampled image: the depth of the surfaces
 const uint kListBlended = 2u;       // while clusters are found, storage buffer: by tile, the depths of surfaces that blend
 
-// Depth as the depth buffer has it: 1 or less, larger where nearer. Slices are counted from the farthest surface of the tile on, the last
+// Depth as the depth buffer has it: 1 at the near plane, less where farther. Slices are counted from the farthest surface of the tile on, the last
 // one takes what is nearer.
 struct Tile {
     float farthest;  // depth
@@ -38,9 +38,10 @@ struct ListPush {
 
 // Counters of a frame, after those of prefix_sum.shared.h.
 const uint kListLongest = kResultCount;      // list, over all its parts
-const uint kListAllEntries = kListLongest + 1u;  // of all pages
-const uint kListFound = kListLongest + 2u;   // clusters
-const uint kListCounters = kListLongest + 3u;
+const uint kListAllEntries = kListLongest + 1u;  // of all pages; their high half is next
+const uint kListAllEntriesHigh = kListLongest + 2u;
+const uint kListFound = kListLongest + 3u;   // lists: tiles, or clusters
+const uint kListCounters = kListLongest + 4u;
 
 SHARED_FN uint tilesAcross(uint pixels, uint tileSize) { return (pixels + tileSize - 1u) / tileSize; }
 SHARED_END
