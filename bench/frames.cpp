@@ -55,9 +55,9 @@ void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) 
 
 }  // namespace
 
-void benchFrames(Renderer& renderer, int frames, uvec2 extent) {
+void benchFrames(Renderer& renderer, const Options& options) {
     fmt::print("builtin:hall, overlap 4, 40,000 triangles\n");
-    for (const uint32_t lights : {16u, 64u, 255u}) benchLights(renderer, lights, frames, extent);
+    for (const uint32_t lights : {16u, 64u, 255u}) benchLights(renderer, lights, options.frames, options.extent);
 }
 
 }  // namespace luciole::bench

@@ -10,11 +10,6 @@
 namespace luciole::bench {
 namespace {
 
-struct Contender {
-    std::string name;
-    RenderSettings settings;
-};
-
 struct Result {
     std::vector<double> frameMs, indexMs, surfacesMs;
     Frame last;
@@ -31,7 +26,7 @@ double msOf(const Frame& frame, std::string_view part) {
     return ms;
 }
 
-std::map<std::string, Result> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders,
+std::map<std::string, Result> measureIndexing(Renderer& renderer, const View& view, const std::vector<Contender>& contenders,
                                       int frames) {
     std::map<std::string, Result> results;
     for (int i = 0; i < frames; ++i)
@@ -45,10 +40,6 @@ std::map<std::string, Result> measure(Renderer& renderer, const View& view, cons
             result.indexMs.push_back(msOf(result.last, "light-indexed.") - result.surfacesMs.back());
         }
     return results;
-}
-
-std::string both(const std::vector<double>& values) {
-    return fmt::format("{:.1f} ({:.1f})", median(values), least(values));
 }
 
 double meanEvaluations(Renderer& renderer, const View& view, const RenderSettings& settings) {
@@ -87,14 +78,14 @@ void benchArticle(Renderer& renderer, int frames, uvec2 extent) {
             indexed(fmt::format("light-indexed, bit-shift {}x255", overlap), LidrPacking::bitShift, overlap),
             indexed("light-indexed, bit-shift 8x255", LidrPacking::bitShift, 8),
             indexed("light-indexed, list", LidrPacking::list, 4)};
-        const auto results = measure(renderer, view, contenders, frames);
+        const auto results = measureIndexing(renderer, view, contenders, frames);
         const double multipass = median(results.at("forward-multipass").frameMs);
         for (const Contender& contender : contenders) {
             const Result& result = results.at(contender.name);
             const bool articles = contender.settings.lidrPacking == LidrPacking::bitShift &&
                                   contender.settings.overlap == overlap &&
                                   contender.settings.lighting == "light-indexed";
-            fmt::print("| {} | {} | {} | {:.1f} | {} | {:.2f} | {} |\n", overlap, contender.name, both(result.frameMs),
+            fmt::print("| {} | {} | {} | {:.1f} | {} | {:.2f} | {} |\n", overlap, contender.name, milliseconds(result.frameMs),
                        multipass / median(result.frameMs),
                        articles ? fmt::format("{:.1f}", articleFps / kMultipass) : "",
                        meanEvaluations(renderer, view, contender.settings),
@@ -137,15 +128,15 @@ void benchPackings(Renderer& renderer, int frames, uvec2 extent) {
                                    getSetting(row.settings, "lidr-tables"), getSetting(row.settings, "lidr-types"));
             contenders.push_back(row);
         }
-    const auto results = measure(renderer, view, contenders, frames);
+    const auto results = measureIndexing(renderer, view, contenders, frames);
     fmt::print(
         "\n| packing | index passes, ms | surfaces, ms | images, bytes a pixel | tables, KiB | pairs lost | held by |\n"
         "| --- | ---: | ---: | ---: | ---: | ---: | --- |\n");
     for (const Contender& contender : contenders) {
         const Result& result = results.at(contender.name);
         const LightIndexStats& stats = *result.last.stats.lightIndex;
-        fmt::print("| {} | {} | {} | {:.0f} | {:.1f} | {} | {} |\n", contender.name, both(result.indexMs),
-                   both(result.surfacesMs), double(stats.imageBytes) / (double(extent.x) * extent.y),
+        fmt::print("| {} | {} | {} | {:.0f} | {:.1f} | {} | {} |\n", contender.name, milliseconds(result.indexMs),
+                   milliseconds(result.surfacesMs), double(stats.imageBytes) / (double(extent.x) * extent.y),
                    double(stats.tableBytes) / 1024, stats.fellBack ? 0 : stats.pairsOver, stats.packing);
     }
 }
@@ -167,9 +158,9 @@ void benchSamples(Renderer& renderer, int frames, uvec2 extent) {
         settings.lidrCover = cover;
         contenders.push_back({"light-indexed, lidr-cover " + getSetting(settings, "lidr-cover"), settings});
     }
-    const auto results = measure(renderer, view, contenders, frames);
+    const auto results = measureIndexing(renderer, view, contenders, frames);
     for (const Contender& contender : contenders)
-        fmt::print("| {} | {} | {:.2f} | {} |\n", contender.name, both(results.at(contender.name).frameMs),
+        fmt::print("| {} | {} | {:.2f} | {} |\n", contender.name, milliseconds(results.at(contender.name).frameMs),
                    meanEvaluations(renderer, view, contender.settings),
                    results.at(contender.name).last.stats.lightIndex
                        ? results.at(contender.name).last.stats.lightIndex->packing
@@ -178,10 +169,10 @@ void benchSamples(Renderer& renderer, int frames, uvec2 extent) {
 
 }  // namespace
 
-void benchLightIndexed(Renderer& renderer, int frames, uvec2 extent) {
-    benchArticle(renderer, frames, extent);
-    benchPackings(renderer, frames, extent);
-    benchSamples(renderer, frames, extent);
+void benchLightIndexed(Renderer& renderer, const Options& options) {
+    benchArticle(renderer, options.frames, options.extent);
+    benchPackings(renderer, options.frames, options.extent);
+    benchSamples(renderer, options.frames, options.extent);
 }
 
 }  // namespace luciole::bench

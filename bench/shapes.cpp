@@ -39,7 +39,7 @@ void addLighting(Result& result, const Frame& frame, const std::string& techniqu
     result.recordMs.push_back(frame.stats.recordMs);
 }
 
-std::map<std::string, Result> measure(Renderer& renderer, const View& view, const std::vector<std::string>& techniques, int frames,
+std::map<std::string, Result> measureShapes(Renderer& renderer, const View& view, const std::vector<std::string>& techniques, int frames,
                                       bool cull = true) {
     std::map<std::string, Result> results;
     for (const std::string& technique : techniques) {
@@ -52,8 +52,6 @@ std::map<std::string, Result> measure(Renderer& renderer, const View& view, cons
             addLighting(results[technique], renderer.render(view, {.lighting = technique, .cullLights = cull, .measure = true}), technique);
     return results;
 }
-
-std::string milliseconds(const std::vector<double>& values) { return fmt::format("{:.1f} ({:.1f})", median(values), least(values)); }
 
 void printRow(const std::string& scene, const std::string& technique, const Result& result, double bruteMs) {
     fmt::print("| {} | {} | {} | {:.1f} | {:.2f} | {:.2f} | {} | {} | {:.2f} |\n", scene, technique, milliseconds(result.lightingMs),
@@ -75,10 +73,10 @@ void benchGrid(Renderer& renderer, int frames, uvec2 extent) {
             const View view{scene.cameras.at(0), extent};
             const std::string name = fmt::format("{} lights, overlap {}", lights, overlap);
             // One frame each of what takes seconds; the next such line is far off, so one is enough to see the ratio.
-            auto slow = measure(renderer, view, lights == 255 ? std::vector<std::string>{"brute-force", "fullscreen"} : std::vector<std::string>{"brute-force"}, 1);
+            auto slow = measureShapes(renderer, view, lights == 255 ? std::vector<std::string>{"brute-force", "fullscreen"} : std::vector<std::string>{"brute-force"}, 1);
             const double brute = least(slow.at("brute-force").lightingMs);
             for (const auto& [technique, result] : slow) printRow(name, technique, result, brute);
-            const auto results = measure(renderer, view, kShapes, frames);
+            const auto results = measureShapes(renderer, view, kShapes, frames);
             for (const std::string& technique : kShapes) printRow(name, technique, results.at(technique), brute);
             std::fflush(stdout);
         }
@@ -91,7 +89,7 @@ void benchCulling(Renderer& renderer, int frames, uvec2 extent) {
     View view{scene.cameras.at(0), extent};
     // Turned round in the middle of the nave: half of the lights are behind.
     view.camera.worldFromView = lookAt(vec3(0, 1.7f, -24), vec3(3, 3, -48));
-    const auto culled = measure(renderer, view, kShapes, frames), all = measure(renderer, view, kShapes, frames, false);
+    const auto culled = measureShapes(renderer, view, kShapes, frames), all = measureShapes(renderer, view, kShapes, frames, false);
     for (const std::string& technique : kShapes)
         fmt::print("| {} | {} | {} |\n", technique, milliseconds(culled.at(technique).lightingMs), milliseconds(all.at(technique).lightingMs));
 }
@@ -143,7 +141,7 @@ void benchOcclusion(Renderer& renderer, int frames, uvec2 extent) {
         Scene scene = floorScene(walls);
         addLamps(scene);
         renderer.setScene(scene);
-        const auto results = measure(renderer, floorView(extent), {"brute-force", "quad", "volume", "volume-stencil", "volume-instanced"}, frames);
+        const auto results = measureShapes(renderer, floorView(extent), {"brute-force", "quad", "volume", "volume-stencil", "volume-instanced"}, frames);
         const double brute = least(results.at("brute-force").lightingMs);
         for (const auto& [technique, result] : results)
             printRow(walls ? "255 lights, walls between" : "255 lights, open floor", technique, result, brute);
@@ -162,7 +160,7 @@ void benchOneOrMany(Renderer& renderer, int frames, uvec2 extent) {
                                     .range = range});
         renderer.setScene(scene);
         View view{{.worldFromView = lookAt(vec3(0, 30, -19.9f), vec3(0, 0, -20))}, extent};
-        const auto results = measure(renderer, view, {"brute-force", "quad", "volume", "volume-stencil", "volume-instanced"}, frames);
+        const auto results = measureShapes(renderer, view, {"brute-force", "quad", "volume", "volume-stencil", "volume-instanced"}, frames);
         const double brute = least(results.at("brute-force").lightingMs);
         for (const auto& [technique, result] : results)
             printRow(n == 1 ? "1 light of 10 m" : "256 lights of 0.625 m", technique, result, brute);
@@ -171,11 +169,11 @@ void benchOneOrMany(Renderer& renderer, int frames, uvec2 extent) {
 
 }  // namespace
 
-void benchShapes(Renderer& renderer, int frames, uvec2 extent) {
-    benchOneOrMany(renderer, frames, extent);
-    benchOcclusion(renderer, frames, extent);
-    benchCulling(renderer, frames, extent);
-    benchGrid(renderer, frames, extent);
+void benchShapes(Renderer& renderer, const Options& options) {
+    benchOneOrMany(renderer, options.frames, options.extent);
+    benchOcclusion(renderer, options.frames, options.extent);
+    benchCulling(renderer, options.frames, options.extent);
+    benchGrid(renderer, options.frames, options.extent);
 }
 
 }  // namespace luciole::bench

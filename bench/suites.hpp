@@ -1,24 +1,31 @@
 #pragma once
-#include <algorithm>
-#include <vector>
+#include <string>
 
 #include <luciole/renderer.hpp>
 
+#include "measure.hpp"
+
 namespace luciole::bench {
 
-inline double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-inline double least(const std::vector<double>& values) { return *std::ranges::min_element(values); }
+struct Options {
+    int frames;     ///< of each contender
+    uvec2 extent;
+    std::string folder;  ///< of glTF halls; empty: built-in ones
+};
 
 /// What a frame of the hall costs, pass by pass, and what one light costs at one pixel.
-void benchFrames(Renderer& renderer, int frames, uvec2 extent);
+void benchFrames(Renderer& renderer, const Options& options);
 
 /// What the shapes of lights save: Markdown tables of milliseconds and counts.
-void benchShapes(Renderer& renderer, int frames, uvec2 extent);
+void benchShapes(Renderer& renderer, const Options& options);
 
 /// What light-indexed rendering costs beside what it is compared with, and the article's benchmark with its ratios.
-void benchLightIndexed(Renderer& renderer, int frames, uvec2 extent);
+void benchLightIndexed(Renderer& renderer, const Options& options);
+
+/// Lists of lights by tile and cluster beside what people would use instead, and beside the bound that no list can undercut.
+void benchTiles(Renderer& renderer, const Options& options);
+
+/// What frames and lists cost from 255 lights to a million.
+void benchScaling(Renderer& renderer, const Options& options);
 
 }  // namespace luciole::bench

@@ -11,5 +11,6 @@ void addSceneCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);
 void addTechniquesCommand(CLI::App& app);
+void addBenchCommand(CLI::App& app);
 
 }  // namespace luciole::cli

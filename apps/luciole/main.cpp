@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
     cli::addDevicesCommand(app);
     cli::addSettingsCommand(app);
     cli::addTechniquesCommand(app);
+    cli::addBenchCommand(app);
     const auto refuse = [&](std::string_view what) {
         const auto commands = app.get_subcommands();
         const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";

@@ -112,6 +112,26 @@ std::string originOf(const SettingOptions& options, std::string_view name) {
     return fromFile ? fmt::format("{}: /{}", options.file, name) : fmt::format("--{}", name);
 }
 
+RendererOptions deviceDefaults() {
+#ifdef NDEBUG
+    constexpr bool kDebugBuild = false;
+#else
+    constexpr bool kDebugBuild = true;
+#endif
+    return {.validation = kDebugBuild,
+            .onMessage = [](std::string_view message) { say(fmt::format("luciole: {}\n", message)); }};
+}
+
+void addDeviceOptions(CLI::App& command, RendererOptions& options) {
+    command
+        .add_option("--device", options.device,
+                    "index or part of a name, as `luciole devices` says [a discrete GPU, else any GPU, else software]")
+        ->type_name("INDEX|NAME")
+        ->group("Device");
+    command.add_flag("--validation", options.validation, "let Vulkan check every call, and say what it finds (always on in debug builds)")
+        ->group("Device");
+}
+
 void addConsoleOptions(CLI::App& command, Console& console) {
     CLI::Option* quiet = command.add_flag("-q,--quiet", console.quiet, "say nothing but errors")->group("Messages");
     command.add_flag("-v,--verbose", console.verbose, "say more")->excludes(quiet)->group("Messages");

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <luciole/renderer.hpp>
 #include <luciole/scene.hpp>
 #include <luciole/settings.hpp>
 
@@ -32,6 +33,10 @@ void addSettingOptions(CLI::App& command, SettingOptions& options);
 RenderSettings resolve(const SettingOptions& options);
 /// Where the value of setting `name` comes from, as errors begin: `--NAME`, or `FILE: /NAME`.
 std::string originOf(const SettingOptions& options, std::string_view name);
+
+/// Validation is always on in debug builds; its messages go to stderr.
+RendererOptions deviceDefaults();
+void addDeviceOptions(CLI::App& command, RendererOptions& options);
 
 void addConsoleOptions(CLI::App& command, Console& console);
 

@@ -20,33 +20,17 @@ namespace {
 
 constexpr std::string_view kReference = "reference";  ///< the one technique that needs no device
 
-#ifdef NDEBUG
-constexpr bool kDebugBuild = false;
-#else
-constexpr bool kDebugBuild = true;
-#endif
-
 struct RenderOptions {
     SceneOptions scene;
     ViewOptions view;
     SettingOptions settings;
     OutputOptions output;
-    RendererOptions renderer{.validation = kDebugBuild};
+    RendererOptions renderer = deviceDefaults();
     Console console;
     bool defaultLight = true;
     bool json = false;
     bool stats = false;
 };
-
-void addDeviceOptions(CLI::App& command, RendererOptions& options) {
-    command
-        .add_option("--device", options.device,
-                    "index or part of a name, as `luciole devices` says [a discrete GPU, else any GPU, else software]")
-        ->type_name("INDEX|NAME")
-        ->group("Device");
-    command.add_flag("--validation", options.validation, "let Vulkan check every call, and say what it finds (always on in debug builds)")
-        ->group("Device");
-}
 
 void addReportOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag("--json", options.json, "print statistics as JSON on standard output; implies --measure")->group("Messages");
@@ -92,7 +76,6 @@ Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, 
             return true;
         });
     RendererOptions rendererOptions = options.renderer;
-    rendererOptions.onMessage = [](std::string_view message) { say(fmt::format("luciole: {}\n", message)); };
     rendererOptions.cacheFolder = cacheFolder();
     Renderer renderer(rendererOptions);
     options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));

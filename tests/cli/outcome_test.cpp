@@ -91,6 +91,10 @@ TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     const Run magic = failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "magic"});
     CHECK(has(magic.err, "error: --lighting: expected one of "));
     CHECK(has(magic.err, "reference"));
+    const Run ideal = failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "ideal"});
+    CHECK(has(ideal.err, "error: --lighting: expected one of "));  // benchmarks alone have it
+    CHECK(has(failing(ErrorKind::usage, {"bench", "builtin:materials", "--lighting", "magic"}).err, "lighting: expected one of "));
+    CHECK(has(failing(ErrorKind::usage, {"bench", "builtin:materials", "--frames", "0"}).err, "--frames: expected a whole number from 1 to 1000"));
     CHECK(has(failing(ErrorKind::usage, {}).err, "command"));
     CHECK(has(failing(ErrorKind::usage, {"paint"}).err, "paint (see luciole --help)"));
     CHECK(has(failing(ErrorKind::usage, {"render", "builtin:materials"}).err, "(see luciole render --help)"));

@@ -33,7 +33,7 @@ nlohmann::json statistics(std::vector<std::string> more) {
 
 TEST_CASE("cli: help goes to standard output and shows the commands, examples, built-in scenes and exit codes") {
     const std::string help = outputOf({"--help"});
-    for (const char* word : {"render", "info", "scene", "devices", "settings", "techniques"}) {
+    for (const char* word : {"render", "info", "scene", "devices", "settings", "techniques", "bench"}) {
         CHECK(has(help, std::string("\n  ") + word + " "));
         CHECK(has(outputOf({word, "--help"}), std::string("luciole ") + word));
     }
@@ -63,6 +63,23 @@ TEST_CASE("cli: settings and techniques are listed by name") {
     const std::string settings = outputOf({"settings"}), techniques = outputOf({"techniques"});
     for (const Setting& setting : settingsTable()) CHECK(has(settings, setting.name));
     for (const auto& technique : lightingTechniques()) CHECK(has(techniques, technique.name));
+}
+
+TEST_CASE("cli: bench measures the technique that is named beside the bound, with the settings that are given") {
+    const std::string bench = outputOf({"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "1",
+                                        "--lighting", "clustered", "--tile-size", "8"});
+    CHECK(has(bench, "20 lights, "));
+    CHECK(has(bench, ", 24x18; "));
+    CHECK(has(bench, "\n| clustered | "));
+    CHECK(has(bench, "\n| ideal | "));
+    CHECK_FALSE(has(bench, "brute-force"));
+    CHECK(has(bench, " | 0 |\n"));  // no light missed
+}
+
+TEST_CASE("cli: bench without a name measures the techniques with lists of lights") {
+    const std::string bench = outputOf({"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "1"});
+    for (const char* name : {"tiled", "tiled-points", "clustered", "clustered-forward", "ideal"})
+        CHECK(has(bench, std::string("\n| ") + name + " | "));
 }
 
 TEST_CASE("cli: devices are listed with what they are, as JSON too") {

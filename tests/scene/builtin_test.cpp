@@ -1,5 +1,6 @@
 #include "scene/builtin/builtin.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -196,6 +197,25 @@ TEST_CASE("builtin:hall: the mean number of lights that reach a visible pixel is
     }
 }
 
+TEST_CASE("builtin:hall: with gltf=1 the same hall has glTF's materials alone, each of one colour") {
+    const std::string uri = "builtin:hall?lights=40&triangles=20000";
+    const Scene shaped = makeBuiltin(uri), gltf = makeBuiltin(uri + "&gltf=1");
+    CHECK_NOTHROW(validate(gltf));
+    CHECK(gltf.functions.empty());
+    for (const Material& material : gltf.materials) {
+        CHECK(material.equation == LightEquation::metallicRoughness);
+        CHECK(material.surface == SurfaceShader::textured);
+    }
+    CHECK(std::ranges::any_of(shaped.materials, [](const Material& material) { return material.equation == LightEquation::shaped; }));
+    CHECK(triangleCount(gltf) == triangleCount(shaped));
+    CHECK(gltf.objects.size() == shaped.objects.size());
+    REQUIRE(gltf.lights.size() == shaped.lights.size());
+    for (size_t i = 0; i < gltf.lights.size(); ++i) {
+        CHECK(gltf.lights[i].positionWorld == shaped.lights[i].positionWorld);
+        CHECK(gltf.lights[i].range == shaped.lights[i].range);
+    }
+}
+
 TEST_CASE("builtin:hall: an overlap that can't be had gives a warning and the nearest") {
     const Scene scene = makeBuiltin("builtin:hall?lights=1&overlap=16&triangles=3000");
     REQUIRE(scene.warnings.size() == 1);
@@ -251,13 +271,13 @@ TEST_CASE("builtin: a bad URI is refused with the key, what was expected and wha
     const std::vector<Bad> bads = {
         {"builtin:", {"hall, materials, fireflies"}},
         {"builtin:cellar", {"hall, materials, fireflies", "cellar"}},
-        {"builtin:hall?lamps=3", {"lamps", "lights, overlap, triangles, seed"}},
-        {"builtin:hall?lights", {"lights", "whole number from 0 to 1000000", "\"\""}},
+        {"builtin:hall?lamps=3", {"lamps", "lights, overlap, triangles, seed, gltf"}},
+        {"builtin:hall?lights", {"lights", "whole number from 0 to 1048576", "\"\""}},
         {"builtin:hall?lights=many", {"lights", "\"many\""}},
         {"builtin:hall?lights=1.5", {"lights", "whole number", "\"1.5\""}},
         {"builtin:hall?lights=-1", {"lights", "\"-1\""}},
         {"builtin:hall?lights=12x", {"lights", "\"12x\""}},
-        {"builtin:hall?lights=1000001", {"lights", "1000000"}},
+        {"builtin:hall?lights=1048577", {"lights", "1048576"}},
         {"builtin:hall?overlap=nan", {"overlap", "0.1 to 256", "\"nan\""}},
         {"builtin:hall?overlap=inf", {"overlap", "\"inf\""}},
         {"builtin:hall?triangles=999", {"triangles", "1000 to 4000000", "\"999\""}},

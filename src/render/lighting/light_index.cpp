@@ -344,8 +344,8 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
     x.surfaces ? addBlendedLoop(graph, in, sum) : addSurfaces(graph, x, sum, images, Surfaces::blended, true);
 }
 
-/// Per-pixel lists of any length: count, place, fill, sort.
-void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices, uint64_t capacity) {
+/// Per-pixel lists of any length: count, place, fill, sort; slice by slice of the lights, each followed by what `addShading` adds.
+void addLists(FrameGraph& graph, const Indexing& x, uint32_t slices, uint64_t capacity, const AddPixelShading& addShading) {
     const LightingInputs& in = x.in;
     const vk::Extent2D extent = graph.descOf(x.depth).extent;
     const uint32_t pixels = extent.width * extent.height;
@@ -390,26 +390,56 @@ void addLists(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices
             .record([constants = in.constants, groups = (pixels + 63) / 64](PassContext& context) {
                 context.dispatch("render/lighting/light_index_sort.comp", constants, groups);
             });
-        const auto addListed = [&](Surfaces which) {
-            auto [pass, target] = addForwardPass(
-                graph, in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which,
-                s == 0);
-            pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
-                .read(offsets, Access::fragmentStorageRead, shared::kIndexOffsets)
-                .read(entries, Access::fragmentStorageRead, shared::kIndexEntries);
-            SurfaceShading shading = forwardShading(in, "render/lighting/forward_listed.frag", which, s == 0);
-            if (s == 0) shading.slice = x.plan.rest;
-            pass.record([&scene = in.scene, shading, which](PassContext& context) {
-                testDepth(context, which);
-                which == Surfaces::blended ? scene.drawBlended(context, {shading})
-                                           : scene.drawSurfaces(context, shading);
-            });
-            addToSum(graph, in, target, sum);
-        };
-        addListed(Surfaces::opaque);
-        if (in.scene.hasBlended() && !x.surfaces && slices == 1) addListed(Surfaces::blended);
+        addShading({offsets, entries}, s == 0);
     }
-    if (in.scene.hasBlended() && (x.surfaces || slices > 1)) addBlendedLoop(graph, in, sum);
+}
+
+/// Step 3 with per-pixel lists.
+void addListedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const PixelLists& lists, Surfaces which, bool first) {
+    auto [pass, target] =
+        addForwardPass(graph, x.in, sum, which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
+    pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
+        .read(lists.offsets, Access::fragmentStorageRead, shared::kIndexOffsets)
+        .read(lists.entries, Access::fragmentStorageRead, shared::kIndexEntries);
+    SurfaceShading shading = forwardShading(x.in, "render/lighting/forward_listed.frag", which, first);
+    if (first) shading.slice = x.plan.rest;
+    pass.record([&scene = x.in.scene, shading, which](PassContext& context) {
+        testDepth(context, which);
+        which == Surfaces::blended ? scene.drawBlended(context, {shading}) : scene.drawSurfaces(context, shading);
+    });
+    addToSum(graph, x.in, target, sum);
+}
+
+void addListed(FrameGraph& graph, const Indexing& x, ImageId sum, uint32_t slices, uint64_t capacity) {
+    const bool blends = x.in.scene.hasBlended(), blendsByLists = blends && !x.surfaces && slices == 1;
+    addLists(graph, x, slices, capacity, [&](const PixelLists& lists, bool first) {
+        addListedSurfaces(graph, x, sum, lists, Surfaces::opaque, first);
+        if (blendsByLists) addListedSurfaces(graph, x, sum, lists, Surfaces::blended, true);
+    });
+    if (blends && !blendsByLists) addBlendedLoop(graph, x.in, sum);
+}
+
+/// Adds what lights are drawn from once there is a plan, and the counters, with `words` more after them.
+void addDrawing(FrameGraph& graph, Indexing& x, uint64_t words = 0) {
+    x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
+    x.shapes = addShapes(graph, x.in);
+    x.counters = graph.createBuffer("light-index.counters", (shared::kCounterCount + words) * 4);
+    addZero(graph, x.in.phase + "light-indexed.zero", x.counters);
+}
+
+/// The report of a frame, which its counters go to.
+void report(FrameGraph& graph, const Indexing& x, LightIndexFrame frame) {
+    graph.output(x.counters);
+    x.in.report->counters = x.counters;
+    x.in.report->judge = [frame = std::move(frame)](std::span<const uint32_t> counters, FrameStats& stats) {
+        return judge(frame, counters, stats.lightIndex.emplace());
+    };
+}
+
+/// Entries that lists have room for.
+uint64_t listCapacity(const FrameGraph& graph, const LightingInputs& in) {
+    const vk::Extent2D extent = graph.descOf(in.depth).extent;
+    return in.attempt.entries ? in.attempt.entries : uint64_t(extent.width) * extent.height * 8;
 }
 
 }  // namespace
@@ -452,17 +482,12 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     // A guard costs the early depth test: it is there if what overflows is kept, and where a second pass goes on at its
     // count.
     x.guarded = !x.layout.sorted && (in.attempt.report || x.layout.packing.passes > 1);
-    x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
-    x.shapes = addShapes(graph, in);
-    x.counters = graph.createBuffer(
-        "light-index.counters",
-        (shared::kCounterCount + uint64_t(lights) * (in.attempt.report ? shared::kLostWords : 0)) * 4);
-    addZero(graph, in.phase + "light-indexed.zero", x.counters);
+    addDrawing(graph, x, uint64_t(lights) * (in.attempt.report ? shared::kLostWords : 0));
 
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
-    const uint64_t entries = in.attempt.entries ? in.attempt.entries : uint64_t(extent.width) * extent.height * 8;
+    const uint64_t entries = listCapacity(graph, in);
     if (!list && settings.lidrTables == LidrTables::textures) addTables(graph, x);
-    list ? addLists(graph, x, sum, in.attempt.slices, entries) : addImages(graph, x, sum);
+    list ? addListed(graph, x, sum, in.attempt.slices, entries) : addImages(graph, x, sum);
     if (!in.report) return;
 
     LightIndexFrame frame{.layout = layout,
@@ -474,8 +499,6 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
     frame.attempt.entries = entries;
     if (in.attempt.report)
         for (const shared::PackedLight& light : in.scene.lights().sources) frame.sceneIndices.push_back(light.sceneIndex);
-    graph.output(x.counters);
-    in.report->counters = x.counters;
     frame.stats.fellBack = list && settings.lidrPacking != LidrPacking::list;
     frame.stats.rounds = list ? in.attempt.slices : uint32_t(x.plan.rounds());
     frame.stats.withoutIndex = x.plan.rest.count;
@@ -491,9 +514,23 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
                                      : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) *
                                            x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
     }
-    in.report->judge = [frame = std::move(frame)](std::span<const uint32_t> counters, FrameStats& stats) {
-        return judge(frame, counters, stats.lightIndex.emplace());
-    };
+    report(graph, x, std::move(frame));
+}
+
+void addPixelLists(FrameGraph& graph, const LightingInputs& in, const AddPixelShading& addShading) {
+    const IndexLayout layout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false};
+    Indexing x{.in = in, .layout = layout, .surfaces = true, .depth = in.depth, .samples = false, .guarded = false};
+    x.plan = planIndices({}, layout, in.scene.lights(), in.scene.volumes(), nullptr, false);
+    addDrawing(graph, x);
+    const uint64_t entries = listCapacity(graph, in);
+    addLists(graph, x, in.attempt.slices, entries, addShading);
+    if (!in.report) return;
+    LightIndexFrame frame{.attempt = in.attempt, .onOverflow = OnOverflow::exact, .largestBuffer = in.largestBuffer};
+    frame.attempt.list = true;
+    frame.attempt.entries = entries;
+    frame.stats.packing = "list";
+    frame.stats.rounds = in.attempt.slices;
+    report(graph, x, std::move(frame));
 }
 
 LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {
@@ -504,10 +541,7 @@ LightIndices addLightIndices(FrameGraph& graph, const LightingInputs& in) {
                .samples = false,
                .guarded = false};
     x.plan = planIndices(in.settings, x.layout, in.scene.lights(), in.scene.volumes(), nullptr, false);
-    x.order = graph.createConstantBuffer("light-index.order", x.plan.order);
-    x.shapes = addShapes(graph, in);
-    x.counters = graph.createBuffer("light-index.counters", shared::kCounterCount * 4);
-    addZero(graph, in.phase + "light-indexed.zero", x.counters);
+    addDrawing(graph, x);
     const vk::Extent2D extent = graph.descOf(in.depth).extent;
     x.numbers = graph.createImage("light-index.numbers", {vk::Format::eR8Unorm, extent});
     std::vector<ImageId> images;

@@ -25,6 +25,16 @@ struct LightIndices {
 /// \param in of it: scene, constants, lights, depth (which has one sample) and settings
 LightIndices addLightIndices(frame::FrameGraph& graph, const LightingInputs& in);
 
+/// By pixel, the lights that reach its surface, whatever they are linked to.
+struct PixelLists {
+    frame::BufferId offsets;  ///< uint[pixels + 1]: where each list begins
+    frame::BufferId entries;  ///< light indices, those of a list in the order of the table
+};
+using AddPixelShading = std::function<void(const PixelLists& lists, bool first)>;
+/// Adds what makes the lists, and what `addShading` adds to use them; several times, with other lights, if a buffer does not hold all.
+/// \param in its depth has one sample
+void addPixelLists(frame::FrameGraph& graph, const LightingInputs& in, const AddPixelShading& addShading);
+
 /// What the counters of the frame say (light_index.shared.h: kCounter*, then kLostWords by light); see LightingReport.
 std::optional<LightingAttempt> judge(const LightIndexFrame& frame, std::span<const uint32_t> counters, LightIndexStats& stats);
 

@@ -77,9 +77,20 @@ const std::vector<LightingTechnique>& techniques() {
     return table;
 }
 
+const LightingTechnique& idealTechnique() {
+    static const LightingTechnique ideal{{"ideal", "each pixel's lights from a list of exactly those that reach it", "baseline"},
+                                         addIdeal,
+                                         false,
+                                         LightingTechnique::Stencil::never,
+                                         false,
+                                         true};
+    return ideal;
+}
+
 std::string yardstickOf(const LightingTechnique& technique) { return technique.forward ? "forward-loop" : "brute-force"; }
 
 const LightingTechnique& techniqueNamed(const std::string& name) {
+    if (name == idealTechnique().info.name) return idealTechnique();
     std::vector<std::string_view> names;
     for (const LightingTechnique& technique : techniques()) {
         if (technique.info.name == name) return technique;

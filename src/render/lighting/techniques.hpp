@@ -71,10 +71,14 @@ struct LightingTechnique {
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
 const std::vector<LightingTechnique>& techniques();
 
+/// What no exact technique can undercut by finding fewer lights: for benchmarks only, so that it is in no list of techniques; the renderer
+/// knows it by name. Its pass is "lighting.ideal"; the passes before it prepare what it is given.
+const LightingTechnique& idealTechnique();
+
 /// The technique without any bound, to which others are held: the one that evaluates all lights at the same surfaces.
 std::string yardstickOf(const LightingTechnique& technique);
 
-/// \throws Error(usage) listing the names
+/// \throws Error(usage) listing the names of the table
 const LightingTechnique& techniqueNamed(const std::string& name);
 
 /// The passes that place the lights of the scene's bounce (docs/techniques/bounce.md) in the table of lights.
@@ -90,6 +94,7 @@ void addTiled(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId
 void addTiledPoints(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addClustered(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addClusteredForward(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
+void addIdeal(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addForwardLoop(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addBruteForce(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);
 void addFullScreen(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum);

@@ -34,15 +34,17 @@ const std::vector<Row>& rows() {
     static const std::vector<Row> kRows = {
         {{"hall",
           "a colonnade whose columns hide much of it, hung with small coloured lamps",
-          {{"lights", "number of lights", 255, 0, 1'000'000},
+          {{"lights", "number of lights", 255, 0, 1'048'576},
            {"overlap", "mean number of lights that reach a visible pixel, at 4:3", 4, 0.1, 256, false},
            {"triangles", "number of triangles, met within 2 %", 40'000, 1'000, 4'000'000},
-           {"seed", "where the lights hang and things stand", 1, 0, kMaxSeed}}},
+           {"seed", "where the lights hang and things stand", 1, 0, kMaxSeed},
+           {"gltf", "1: materials are glTF's own, each of one colour", 0, 0, 1}}},
          [](const Values& values) {
              return makeHall({.lights = uint32_t(values.at("lights")),
                               .overlap = values.at("overlap"),
                               .triangles = uint32_t(values.at("triangles")),
-                              .seed = uint32_t(values.at("seed"))});
+                              .seed = uint32_t(values.at("seed")),
+                              .gltf = values.at("gltf") != 0});
          }},
         {{"materials", "spheres with every kind of dot-product function, from plastic to metal", {}},
          [](const Values&) { return makeMaterials(); }},

@@ -82,6 +82,19 @@ HallMaterials addHallMaterials(Scene& scene) {
     return made;
 }
 
+/// Makes metallic-roughness materials of one colour of all, as near to their looks as these come.
+void makeGltf(Scene& scene) {
+    for (Material& material : scene.materials) {
+        material.surface = SurfaceShader::textured;
+        if (material.equation != LightEquation::shaped) continue;
+        material.equation = LightEquation::metallicRoughness;
+        material.metallic = material.shaped.specularBlend;
+        material.roughness = scene.functions[material.shaped.specularFunction].parameter > 50 ? 0.2f : 0.5f;
+        material.shaped = {};
+    }
+    scene.functions.clear();
+}
+
 /// Turned about +Y so that what faced +Z faces the nave from the side `side` (-1 left, 1 right).
 mat4 facingNave(float side, vec3 position) { return placed(position, side < 0 ? float(kPi) / 2 : -float(kPi) / 2); }
 
@@ -368,6 +381,8 @@ Scene makeHall(const HallOptions& options) {
     const Fineness fine = fit(triangles, options.seed);
     auto [scene, materials, solids] = makeBuilding(fine, options.seed);
     addFloor(scene, materials, fine, triangles - triangleCount(scene));
+
+    if (options.gltf) makeGltf(scene);
 
     const Camera camera = hallCamera(fine);
     scene.cameras.push_back(camera);

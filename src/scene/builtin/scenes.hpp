@@ -11,6 +11,7 @@ struct HallOptions {
     double overlap = 4;
     uint32_t triangles = 40000;
     uint32_t seed = 1;
+    bool gltf = false;  ///< metallic-roughness materials of one colour only
 };
 Scene makeHall(const HallOptions& options);
 

@@ -1,0 +1,130 @@
+#include "measure.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace luciole::bench {
+namespace {
+
+constexpr std::string_view kIdeal = "ideal";
+
+double sumOf(const Image& image) { return std::accumulate(image.data.begin(), image.data.end(), 0.0); }
+
+/// Whether a pass evaluates lights, or is there without them; else it finds out which.
+bool shades(std::string_view pass, const std::string& technique) {
+    if (pass == "lighting.initial") return true;
+    const std::string own = "lighting." + technique;
+    if (!pass.starts_with(own)) return false;
+    pass.remove_prefix(own.size());
+    return pass.empty() || pass == ".surfaces" || pass == ".blended" || pass == ".color";
+}
+
+void add(Measured& result, const Frame& frame, const std::string& technique) {
+    double passes = 0, lists = 0, shading = 0;
+    for (const PassStats& pass : frame.stats.passes) {
+        if (pass.name.starts_with("output.")) continue;
+        passes += pass.ms.value();
+        if (!pass.name.starts_with("lighting.")) continue;
+        if (shades(pass.name, technique))
+            shading += pass.ms.value();
+        else if (technique != kIdeal)
+            lists += pass.ms.value();
+    }
+    result.passesMs.push_back(passes);
+    result.listsMs.push_back(lists);
+    result.shadingMs.push_back(shading);
+    result.lightingMs.push_back(lists + shading);
+    result.stats = frame.stats;
+}
+
+}  // namespace
+
+Contender contender(const std::string& technique) {
+    Contender made{technique, {.lighting = technique}};
+    if (technique == "light-indexed") {
+        made.name += ", list";
+        made.settings.lidrPacking = LidrPacking::list;
+    }
+    return made;
+}
+
+namespace {
+
+std::vector<Contender> contenders(std::initializer_list<const char*> techniques) {
+    std::vector<Contender> made;
+    for (const char* technique : techniques) made.push_back(contender(technique));
+    return made;
+}
+
+}  // namespace
+
+std::vector<Contender> fastContenders() {
+    return contenders({"tiled", "tiled-points", "clustered", "clustered-forward", "volume-stencil", "light-prepass", "light-indexed"});
+}
+std::vector<Contender> otherContenders() { return contenders({"quad", "volume", "volume-stencil-reference", "volume-instanced"}); }
+std::vector<Contender> slowContenders() { return contenders({"brute-force", "fullscreen", "forward-loop", "forward-multipass"}); }
+Contender ideal() { return contender(std::string(kIdeal)); }
+
+std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, int frames) {
+    std::vector<Measured> results;
+    for (const Contender& contender : contenders) results.push_back({.name = contender.name});
+    for (int frame = 0; frame < frames; ++frame)
+        for (size_t i = 0; i < contenders.size(); ++i) {
+            RenderSettings settings = contenders[i].settings;
+            renderer.render(view, settings);
+            results[i].wallMs.push_back(renderer.render(view, settings).stats.wallMs);
+            settings.measure = true;
+            add(results[i], renderer.render(view, settings), settings.lighting);
+        }
+    return results;
+}
+
+void count(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, std::vector<Measured>& results) {
+    const double pixels = double(view.extent.x) * view.extent.y;
+    const Image reached = renderer.render(view, {.lighting = "tiled"}, {"light-count"}).aovs.at("light-count");
+    for (size_t i = 0; i < contenders.size(); ++i) {
+        const Frame counted = renderer.render(view, contenders[i].settings, {"evaluations", "useful-evaluations"});
+        results[i].evaluations = sumOf(counted.aovs.at("evaluations")) / pixels;
+        const Image& useful = counted.aovs.at("useful-evaluations");
+        results[i].useful = sumOf(useful) / pixels;
+        for (size_t pixel = 0; pixel < useful.data.size(); ++pixel) results[i].missed += std::max(0.0f, reached.data[pixel] - useful.data[pixel]);
+    }
+}
+
+std::string milliseconds(const std::vector<double>& values) {
+    return fmt::format("{:.1f} ({:.1f})", median(values), least(values));
+}
+
+std::string frameTable(const std::vector<Measured>& results, std::optional<double> otherMs) {
+    std::string table = fmt::format(
+        "| technique | frame, ms: median (least) | its passes, ms |{} evaluations a pixel | useful | pairs missed |\n| --- | ---: | ---: |{} ---: | ---: | ---: |\n",
+        otherMs ? " times faster |" : "", otherMs ? " ---: |" : "");
+    for (const Measured& result : results) {
+        table += fmt::format("| {} | {} | {} |", result.name, milliseconds(result.wallMs), milliseconds(result.passesMs));
+        if (otherMs) table += fmt::format(" {:.2f} ({:.2f}) |", *otherMs / median(result.wallMs), *otherMs / least(result.wallMs));
+        table += fmt::format(" {:.2f} | {:.2f} | {:.0f} |\n", result.evaluations, result.useful, result.missed);
+    }
+    return table;
+}
+
+std::string lightingTable(const std::vector<Measured>& results) {
+    const auto bound = std::ranges::find(results, kIdeal, &Measured::name);
+    std::string table =
+        "| technique | lighting, ms: median (least) | lists, ms | shading, ms | times ideal | evaluations a pixel | useful | entries | "
+        "longest list | lists, MiB |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+    for (const Measured& result : results) {
+        std::string times = "-";
+        if (bound != results.end())
+            times = fmt::format("{:.2f} ({:.2f})", median(result.lightingMs) / median(bound->lightingMs), least(result.lightingMs) / least(bound->lightingMs));
+        table += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} |", result.name, milliseconds(result.lightingMs),
+                             milliseconds(result.listsMs), milliseconds(result.shadingMs), times, result.evaluations, result.useful);
+        if (const auto& lists = result.stats.lightLists)
+            table += fmt::format(" {} | {} | {:.2f} |\n", lists->entries, lists->longest, double(lists->bytes) / (1 << 20));
+        else
+            table += " - | - | - |\n";
+    }
+    return table;
+}
+
+}  // namespace luciole::bench

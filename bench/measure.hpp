@@ -1,0 +1,63 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <luciole/renderer.hpp>
+
+/// What `luciole bench` and the suites of luciole_bench have in common.
+namespace luciole::bench {
+
+inline double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+inline double least(const std::vector<double>& values) { return *std::ranges::min_element(values); }
+
+struct Contender {
+    std::string name;
+    RenderSettings settings;
+};
+Contender contender(const std::string& technique);
+
+/// The techniques that are measured where nobody names one: those with lists of lights, and the fastest of the others. `light-indexed` with
+/// lists: the one packing that holds any overlap.
+std::vector<Contender> fastContenders();
+/// All others but those that take seconds a frame from some hundred lights on, which are `slowContenders`.
+std::vector<Contender> otherContenders();
+std::vector<Contender> slowContenders();
+
+/// The bound that lighting times are compared with: exact lists of each pixel's lights, and only their evaluation counted.
+Contender ideal();
+
+/// What the frames of one contender cost and did. Of milliseconds one entry a frame.
+struct Measured {
+    std::string name;
+    std::vector<double> wallMs;     ///< whole frames as they run without `measure`
+    std::vector<double> passesMs;   ///< sum of all passes with `measure`, but for what is read back
+    std::vector<double> listsMs;    ///< lighting passes that find lights (of `ideal` none: they are given)
+    std::vector<double> shadingMs;  ///< those that evaluate them, with the light that is there without lights
+    std::vector<double> lightingMs; ///< both
+    double evaluations = 0, useful = 0;  ///< a pixel
+    double missed = 0;                   ///< pairs of a light and a pixel that it reaches, and where it was not evaluated
+    FrameStats stats;                    ///< of the last frame
+};
+
+/// Frames of all contenders in turn, so that the machine's drift meets all alike. A change of technique makes the frame's resources anew:
+/// one frame that does not count goes before each that does.
+std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, int frames);
+
+/// Fills in `evaluations`, `useful` and `missed`. \param contenders as they were measured; takes a look at each light from each pixel
+void count(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, std::vector<Measured>& results);
+
+/// "median (least)"
+std::string milliseconds(const std::vector<double>& values);
+
+/// Markdown: what the whole frames cost, and, if it is known, how many times longer something else takes for one.
+std::string frameTable(const std::vector<Measured>& results, std::optional<double> otherMs = {});
+
+/// Markdown: what each technique's lighting costs, and how many times that of `ideal`, if that is one of `results`.
+std::string lightingTable(const std::vector<Measured>& results);
+
+}  // namespace luciole::bench

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include "halls.hpp"
+#include "suites.hpp"
+
+namespace luciole::bench {
+namespace {
+
+constexpr uint32_t kLights[] = {255, 1024, 4096, 16384, 65536, 262144, 1048576};
+constexpr uint32_t kVisible = 1024;
+
+void printHeader(std::string_view title) {
+    fmt::print(
+        "\n{}\n\n| lights | technique | frame, ms: median (least) | lists, ms | shading, ms | entries | longest list | lists, MiB | device, MiB "
+        "| bytes a light |\n| ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        title);
+}
+
+double mebibytes(uint64_t bytes) { return double(bytes) / (1 << 20); }
+
+uint64_t bytesBesidesLists(const Measured& result) { return result.stats.peakBytes - result.stats.lightLists->bytes; }
+
+/// \param base of the same scene and technique with fewer lights
+void printRow(const Measured& result, const Measured* base) {
+    const LightListStats& lists = *result.stats.lightLists;
+    std::string bytes = "-";
+    if (base)
+        bytes = fmt::format("{:.1f}", (double(bytesBesidesLists(result)) - double(bytesBesidesLists(*base))) / (result.stats.lights - base->stats.lights));
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.1f} | {} |\n", result.stats.lights, result.name, milliseconds(result.wallMs),
+               milliseconds(result.listsMs), milliseconds(result.shadingMs), lists.entries, lists.longest, mebibytes(lists.bytes),
+               mebibytes(result.stats.peakBytes), bytes);
+    std::fflush(stdout);
+}
+
+std::vector<Contender> listContenders() {
+    return {contender("tiled"), contender("tiled-points"), contender("clustered"), contender("clustered-forward")};
+}
+
+std::vector<Measured> measureScene(Renderer& renderer, const Scene& scene, const Options& options) {
+    renderer.setScene(scene);
+    return measure(renderer, {scene.cameras.at(0), options.extent}, listContenders(), options.frames);
+}
+
+}  // namespace
+
+void benchScaling(Renderer& renderer, const Options& options) {
+    printHeader("Lights at overlap 4: the more, the smaller");
+    for (const uint32_t lights : kLights)
+        for (const Measured& result : measureScene(renderer, builtinHall(lights, 4), options)) printRow(result, nullptr);
+    printHeader(fmt::format("{} lights in the hall, all others around it, where they light nothing that is seen", kVisible));
+    std::vector<Measured> base;
+    for (const uint32_t lights : kLights) {
+        if (lights < kVisible) continue;
+        const std::vector<Measured> results = measureScene(renderer, hallInWorld(kVisible, lights), options);
+        if (base.empty()) base = results;
+        for (size_t i = 0; i < results.size(); ++i) printRow(results[i], lights > kVisible ? &base[i] : nullptr);
+    }
+}
+
+}  // namespace luciole::bench
