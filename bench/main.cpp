@@ -23,7 +23,8 @@ constexpr Suite kSuites[] = {{"frames", bench::benchFrames},
                              {"shapes", bench::benchShapes},
                              {"light-indexed", bench::benchLightIndexed},
                              {"tiles", bench::benchTiles},
-                             {"scaling", bench::benchScaling}};
+                             {"scaling", bench::benchScaling},
+                             {"moving-lights", bench::benchMovingLights}};
 
 const Suite& suiteNamed(std::string_view name) {
     std::string names;

@@ -28,4 +28,7 @@ void benchTiles(Renderer& renderer, const Options& options);
 /// What frames and lists cost from 255 lights to a million.
 void benchScaling(Renderer& renderer, const Options& options);
 
+/// What it costs if all lights move every frame: Renderer::setLights, median and minimum.
+void benchMovingLights(Renderer& renderer, const Options& options);
+
 }  // namespace luciole::bench

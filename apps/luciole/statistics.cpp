@@ -59,6 +59,9 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
         for (const LightIndexStats::Lost& lost : index->lost)
             json["lightIndex"]["lost"].push_back({{"light", lost.light}, {"pairs", lost.pairs}, {"radiance", lost.radiance}});
     }
+    if (const auto& lists = stats.lightLists)
+        json["lightLists"] = {{"tileSize", lists->tileSize}, {"lists", lists->lists}, {"entries", lists->entries},
+                              {"longest", lists->longest},   {"pages", lists->pages}, {"bytes", lists->bytes}};
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

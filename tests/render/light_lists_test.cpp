@@ -338,7 +338,7 @@ TEST_CASE("light lists: lights no larger than what a G-buffer rounds, where it p
             const Lists lists = maker.lists(view, wanted, layout);
             size_t missing = 0;
             for (uint32_t light = 0; light < pixels.size(); ++light) {
-                const uint32_t place = uint32_t(std::ranges::find(maker.scene().lights().sources, light, &shared::LightConstants::sceneIndex) - maker.scene().lights().sources.begin());
+                const uint32_t place = uint32_t(std::ranges::find(maker.scene().lights().sources, light, &shared::PackedLight::sceneIndex) - maker.scene().lights().sources.begin());
                 missing += !std::ranges::binary_search(lists.list(lists.listOf(pixels[light], view.camera.orthographic)), place);
             }
             INFO("scene " << s << ", view " << v);
