@@ -44,6 +44,13 @@ vec3 unpackPosition(vec3 stored) {
     return p * (1.0 / (m[2].w * stored.z + m[3].w));  // the camera looks straight ahead: w depends on depth alone
 }
 
+// Depth, as the depth buffer has it, of an interpolated position: where the near plane cuts a triangle, a rasterizer may put it before the
+// plane, which is at 1.
+float depthOf(vec3 positionView) {
+    const vec4 clip = view.clipFromView * vec4(positionView, 1);
+    return clip.w > 0.0 ? clamp(clip.z / clip.w, 0.0, 1.0) : 1.0;
+}
+
 // `s` in view space, `s.Cs0` and `s.Cs1` already divided by the material's scales.
 Texels packSurface(Surface s, vec4 fragCoord) {
     const vec2 normal = packNormal(s.N);

@@ -13,8 +13,12 @@ vec4 countOf(ShadingPoint p, LightConstants light) {
     return vec4(1, useful, useful ? fingerprint(light.sceneIndex) : 0u, 0);
 }
 
-vec4 contribution(ShadingPoint p, LightConstants light) {
+// One light's share of a sum, which `sumOf` ends: it leaves nothing where there is no surface.
+vec4 addend(ShadingPoint p, LightConstants light) {
     if (usesLights(kCountsLights)) return countOf(p, light);
-    return vec4(isSurface(p) ? illuminate(p, light) : vec3(0), 0);
+    return vec4(illuminate(p, light), 0);
 }
+vec4 sumOf(ShadingPoint p, vec4 addends) { return usesLights(kCountsLights) || isSurface(p) ? addends : vec4(0); }
+
+vec4 contribution(ShadingPoint p, LightConstants light) { return sumOf(p, addend(p, light)); }
 #endif

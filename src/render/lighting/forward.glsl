@@ -24,6 +24,7 @@ layout(set = 1, binding = kForwardDepth) uniform sampler2DMS depthSamples;
 #endif
 
 ShadingPoint point;
+float shadingDepth;  // of the surface, as the depth buffer has it
 float alpha;
 vec3 sum = vec3(0);
 
@@ -62,10 +63,12 @@ void beginSurface() {
     // As whoever only knows its depth.
 #ifdef MULTISAMPLED
     const vec2 at = floor(gl_FragCoord.xy) + kSamplePositions[shadingSample];
-    s.P = kBlended != 0u ? shadingFromView(s.P) : unpackPosition(vec3(at / view.extent, texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x));
+    shadingDepth = kBlended != 0u ? depthOf(s.P) : texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x;
 #else
-    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, gl_FragCoord.z));
+    const vec2 at = gl_FragCoord.xy;
+    shadingDepth = gl_FragCoord.z;
 #endif
+    s.P = unpackPosition(vec3(at / view.extent, shadingDepth));
     point = shadingPoint(s, m);
     if (kFirst != 0u) sum = initialLight(s, m);
 }

@@ -9,19 +9,9 @@
 layout(constant_id = 8) const uint kTileSize = 16u;
 layout(constant_id = 9) const uint kParts = 1u;
 
-// As the depth buffer has it, or as the pass that found the clusters saw it.
-float depthHere() {
-#ifdef MULTISAMPLED
-    if (kBlended == 0u) return texelFetch(depthSamples, ivec2(gl_FragCoord.xy), shadingSample).x;
-    return depthOf(HERE(positionView));
-#else
-    return gl_FragCoord.z;
-#endif
-}
-
 void main() {
     beginSurface();
-    const uvec2 list = listAt(uvec2(gl_FragCoord.xy), depthHere(), kTileSize, kParts);
+    const uvec2 list = listAt(uvec2(gl_FragCoord.xy), shadingDepth, kTileSize, kParts);
     for (uint i = list.x; i < list.y; ++i) addLight(lightAt(entries[i]));
     endSurface();
 }

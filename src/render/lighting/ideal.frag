@@ -17,5 +17,6 @@ void main() {
     if (kFirst != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materialAt(s.material)), 1);
     const uint pixel = uint(gl_FragCoord.y) * uint(view.extent.x) + uint(gl_FragCoord.x);
     const uint end = min(offsets[pixel + 1u], uint(entries.length()));
-    for (uint i = offsets[pixel]; i < end; ++i) sum += contribution(p, lightAt(entries[i]));
+    for (uint i = offsets[pixel]; i < end; ++i) sum += addend(p, lightAt(entries[i]));
+    sum = sumOf(p, sum);
 }

@@ -18,5 +18,6 @@ void main() {
     sum = vec4(0);
     if (kFirst != 0u && !usesLights(kCountsLights)) sum = vec4(initialLight(s, materialAt(s.material)), 1);
     const uvec2 list = listAt(uvec2(pixel), texelFetch(gbufferDepth, pixel, 0).x, kTileSize, kParts);
-    for (uint i = list.x; i < list.y; ++i) sum += contribution(p, lightAt(entries[i]));
+    for (uint i = list.x; i < list.y; ++i) sum += addend(p, lightAt(entries[i]));
+    sum = sumOf(p, sum);
 }

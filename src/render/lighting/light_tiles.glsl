@@ -23,14 +23,6 @@ uint sliceOf(float depth, float farthest) { return min(sliceFrom0(depth) - slice
 // Whether there can be a surface: in perspective depth 0 is infinitely far.
 bool holdsSurface(float depth) { return depth > 0.0 || view.orthographic != 0u; }
 
-// Of a position that was interpolated. Where the near plane cuts a triangle, a rasterizer may put it a little before the plane, which is
-// at 1.
-float depthOf(vec3 positionView) {
-    const vec4 clip = view.clipFromView * vec4(positionView, 1);
-    const float nearest = 16.0;
-    return clip.w > 0.0 ? clamp(clip.z / clip.w, 0.0, nearest) : nearest;
-}
-
 // Metres along the view axis; no more than what can be squared twice.
 float distanceOf(float depth) {
     const vec2 z = vec2(view.clipFromView[2].z, view.clipFromView[3].z), w = vec2(view.clipFromView[2].w, view.clipFromView[3].w);

@@ -24,7 +24,8 @@ void main() {
         const uint t = i * each;
         const bool more = each > 2u, rows = each > 4u;
         const LightConstants light = toLight(LightTexels(texels[t], texels[t + 1u], more ? texels[t + 2u] : vec4(0), more ? texels[t + 3u] : vec4(0), rows ? texels[t + 4u] : vec4(-1)));
-        const vec4 here = contribution(p, light);
+        const vec4 here = addend(p, light);
         sum += !usesLights(kCountsLights) || i < lightsAndFirst.x ? here : vec4(0);
     }
+    sum = sumOf(p, sum);
 }
