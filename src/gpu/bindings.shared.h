@@ -1,14 +1,13 @@
-// Descriptor sets and bindings, as Pipelines lays them out. Read by both compilers.
+// Descriptor sets and bindings, and what meshes are drawn with, as Pipelines lays them out. Read by both compilers.
 #ifndef LUCIOLE_BINDINGS_SHARED_H
 #define LUCIOLE_BINDINGS_SHARED_H
 #include "shared.h"
 SHARED_BEGIN
 const uint kFrameSet = 0u;
 const uint kFrameView = 0u;       // uniform buffer: ViewConstants
-const uint kFrameObjects = 1u;    // storage buffers from here ...
-const uint kFrameMaterials = 2u;
+const uint kFrameMaterials = 2u;  // storage buffer
 const uint kFrameUniformMaterials = 3u;  // uniform buffer: the first materials once more
-const uint kFrameLights = 4u;
+const uint kFrameLights = 4u;     // storage buffers from here ...
 const uint kFrameLinks = 5u;
 const uint kFrameFunctions = 6u;  // sampled image: the function table
 const uint kFrameUniformLights = 7u;  // uniform buffer: the first lights once more
@@ -28,5 +27,14 @@ const uint kMaterialSet = 2u;     // 5 sampled images, then a uniform buffer: Dr
 const uint kMaterialTextures = 5u;
 
 const uint kPushBytes = 128u;
+
+// One object: what vertex buffer 1 holds for each instance. Buffer 0 holds a luciole::Vertex for each vertex.
+struct ObjectConstants {
+    mat4 worldFromObject;
+    mat3 worldNormalFromObject;
+    float tangentSign;
+    uint material;  // index into the materials; 0 means "no surface"
+    uint objectId;
+};
 SHARED_END
 #endif

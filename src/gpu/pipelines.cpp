@@ -23,7 +23,7 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     using namespace shared;
     std::vector<vk::DescriptorSetLayoutBinding> frame, pass, material;
     add(frame, kFrameView, 1, Type::eUniformBuffer);
-    add(frame, kFrameObjects, kFrameUniformMaterials - kFrameObjects, Type::eStorageBuffer);
+    add(frame, kFrameMaterials, 1, Type::eStorageBuffer);
     add(frame, kFrameUniformMaterials, 1, Type::eUniformBuffer);
     add(frame, kFrameLights, kFrameFunctions - kFrameLights, Type::eStorageBuffer);
     add(frame, kFrameFunctions, 1, Type::eCombinedImageSampler);
@@ -56,8 +56,13 @@ struct Specialization {
     vk::SpecializationInfo info;
 };
 
-static_assert(sizeof(Vertex) == 72);
-constexpr vk::VertexInputBindingDescription kMeshBinding{0, sizeof(Vertex), vk::VertexInputRate::eVertex};
+using shared::ObjectConstants;
+static_assert(sizeof(Vertex) == 72 && sizeof(ObjectConstants) == 112);
+// Objects come as attributes of the instance: of a storage buffer Mesa's software driver (22.3) loads each float of each vertex by itself.
+constexpr vk::VertexInputBindingDescription kMeshBindings[] = {{0, sizeof(Vertex), vk::VertexInputRate::eVertex},
+                                                               {1, sizeof(ObjectConstants), vk::VertexInputRate::eInstance}};
+constexpr uint32_t kWorldFromObject = offsetof(ObjectConstants, worldFromObject);
+constexpr uint32_t kWorldNormalFromObject = offsetof(ObjectConstants, worldNormalFromObject);
 constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
     {0, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, position)},
     {1, 0, vk::Format::eR32G32B32Sfloat, offsetof(Vertex, normal)},
@@ -65,6 +70,15 @@ constexpr vk::VertexInputAttributeDescription kMeshAttributes[] = {
     {3, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv0)},
     {4, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv1)},
     {5, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Vertex, color)},
+    {6, 1, vk::Format::eR32G32B32A32Sfloat, kWorldFromObject},
+    {7, 1, vk::Format::eR32G32B32A32Sfloat, kWorldFromObject + sizeof(vec4)},
+    {8, 1, vk::Format::eR32G32B32A32Sfloat, kWorldFromObject + 2 * sizeof(vec4)},
+    {9, 1, vk::Format::eR32G32B32A32Sfloat, kWorldFromObject + 3 * sizeof(vec4)},
+    {10, 1, vk::Format::eR32G32B32Sfloat, kWorldNormalFromObject},
+    {11, 1, vk::Format::eR32G32B32Sfloat, kWorldNormalFromObject + sizeof(vec3)},
+    {12, 1, vk::Format::eR32G32B32Sfloat, kWorldNormalFromObject + 2 * sizeof(vec3)},
+    {13, 1, vk::Format::eR32Sfloat, offsetof(ObjectConstants, tangentSign)},
+    {14, 1, vk::Format::eR32G32Uint, offsetof(ObjectConstants, material)},
 };
 
 vk::PipelineColorBlendAttachmentState blendState(const PipelineKey& key) {
@@ -157,8 +171,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
 
     vk::PipelineVertexInputStateCreateInfo vertices;
     if (key.meshVertices)
-        vertices = {.vertexBindingDescriptionCount = 1,
-                    .pVertexBindingDescriptions = &kMeshBinding,
+        vertices = {.vertexBindingDescriptionCount = uint32_t(std::size(kMeshBindings)),
+                    .pVertexBindingDescriptions = kMeshBindings,
                     .vertexAttributeDescriptionCount = uint32_t(std::size(kMeshAttributes)),
                     .pVertexAttributeDescriptions = kMeshAttributes};
     const vk::PipelineInputAssemblyStateCreateInfo assembly{

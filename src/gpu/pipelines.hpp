@@ -26,7 +26,7 @@ enum class Blend : uint8_t {
 struct PipelineKey {
     std::string vertex;
     std::string fragment;               ///< empty: nothing is written to colour attachments
-    bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0
+    bool meshVertices = false;          ///< reads luciole::Vertex from vertex buffer 0, ObjectConstants by instance from 1
     bool points = false;                ///< draws points instead of triangles
     Blend blend = Blend::replace;
     bool feedback = false;              ///< reads the colour attachment that it writes

@@ -164,7 +164,7 @@ void GpuScene::uploadObjects(const Scene& scene) {
             batches_.push_back(alone);
         table.push_back(objectConstants(scene.objects[i]));
     }
-    objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eStorageBuffer);
+    objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eVertexBuffer);
 }
 
 size_t GpuScene::drawnMaterialStride() const {
@@ -228,7 +228,7 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * 2},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (kFrameFunctions - kFrameObjects + kFrameVolumeVertices - kFrameLightKinds + 1)},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (1 + kFrameFunctions - kFrameLights + kFrameVolumeVertices - kFrameLightKinds + 1)},
                                             {vk::DescriptorType::eUniformBuffer, count + 2 * 4}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
@@ -360,7 +360,6 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
     const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
     const vk::DeviceSize most = context_.limits().maxUniformBufferRange;
     const Binding bindings[] = {{kFrameView, view, uniform, VK_WHOLE_SIZE},
-                                {kFrameObjects, *objects_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameUniformMaterials, *materials_.handle, uniform, std::min<vk::DeviceSize>(kUniformMaterials * sizeof(MaterialConstants), most)},
                                 {kFrameLights, *lightTable_.handle, storage, VK_WHOLE_SIZE},
@@ -422,7 +421,7 @@ std::vector<LightSlice> GpuScene::slices(uint32_t first, uint32_t count) const {
 }
 
 void GpuScene::bindMeshes(frame::PassContext& pass) const {
-    pass.commands.bindVertexBuffers(0, *vertices_.handle, vk::DeviceSize(0));
+    pass.commands.bindVertexBuffers(0, {*vertices_.handle, *objects_.handle}, {0, 0});
     pass.commands.bindIndexBuffer(*indices_.handle, 0, vk::IndexType::eUint32);
 }
 

@@ -16,7 +16,6 @@ using namespace shared;
 
 // As the shaders lay them out (scalar block layout).
 static_assert(sizeof(ViewConstants) == 348);
-static_assert(sizeof(ObjectConstants) == 112);
 static_assert(sizeof(TextureSlot) == 28);
 static_assert(sizeof(SurfaceConstants) == 84 + kTextureSlots * sizeof(TextureSlot));
 static_assert(sizeof(MaterialConstants) == 36);

@@ -4,6 +4,7 @@
 
 #include <luciole/renderer.hpp>
 
+#include "gpu/bindings.shared.h"
 #include "render/shaders/types.shared.h"
 
 /// From the Scene's plain data to the structs that shaders read. No device needed.

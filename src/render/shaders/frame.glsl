@@ -10,7 +10,6 @@ layout(constant_id = 1) const uint kEquations = ~0u;
 layout(constant_id = 2) const uint kLights = ~0u;
 
 layout(set = 0, binding = 0, scalar) uniform View { ViewConstants view; };
-layout(set = 0, binding = 1, scalar) readonly buffer Objects { ObjectConstants objects[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer Materials { MaterialConstants materials[]; };
 layout(set = 0, binding = 3, scalar) uniform UniformMaterials_ { MaterialConstants uniformMaterials[kUniformMaterials]; };
 layout(set = 0, binding = 4, scalar) readonly buffer Lights { PackedLight lights[]; };

@@ -24,15 +24,6 @@ struct ViewConstants {
     uint cullLights;       // 0: lights that cover no pixel are drawn all the same
 };
 
-// One object. Set 0, kFrameObjects, indexed by instance.
-struct ObjectConstants {
-    mat4 worldFromObject;
-    mat3 worldNormalFromObject;
-    float tangentSign;
-    uint material;  // index into surfaces and materials; 0 means "no surface"
-    uint objectId;
-};
-
 // What the geometry phase needs of a material.
 const uint kTextureBaseColor = 0u;
 const uint kTextureMetallicRoughness = 1u;
