@@ -29,6 +29,10 @@ LightConstants toLight(LightTexels texels) {
     light.flags = uint(texels.place.w) >> 8u;
     light.color = texels.color.rgb;
     light.range = texels.color.w;
+    light.direction = vec3(0, 0, -1);
+    light.cosOuter = kFullCone;
+    light.coneScale = kFullConeScale;
+    light.sceneIndex = 0u;
     light.attenuation = light.falloff = light.linkGroup = light.volume = kNoIndex;
     if (usesLights(kNeedsKinds)) {
         light.direction = texels.direction.xyz;
