@@ -75,6 +75,7 @@ Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
         s.roughness = t.c.z;
         s.objectId = unpackIndex(t.c.w);
         s.material = unpackIndex(t.d.x);
+        s.seen = depth > 0.0;  // not by the material, whose target most lighting passes need for nothing else
     } else {
         s.P = kLayout == kCalver ? unpackPosition(t.a.xyz) : shadingFromView(t.a.xyz);
         s.N = shadingFromView(unpackNormal(t.b.xy));
@@ -83,6 +84,7 @@ Surface unpackSurface(Texels t, vec2 pixelCenter, float depth) {
         s.occlusion = t.b.w;
         s.Cs0 = t.c.rgb;
         s.material = unpackIndex(t.c.w);
+        s.seen = s.material != 0u;
         s.Cs1 = t.d.rgb;
         s.objectId = unpackIndex(t.d.w);
     }

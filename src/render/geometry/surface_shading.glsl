@@ -38,6 +38,7 @@ Surface surfaceHere(out float alpha) {
     s.specularBlend = surface.metallic;
     s.roughness = surface.roughness;
     s.occlusion = 1.0;
+    s.seen = true;
     s.material = materialAndObject.x;
     s.objectId = materialAndObject.y;
     if (hasTexture(kTextureMetallicRoughness)) {

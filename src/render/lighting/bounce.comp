@@ -30,7 +30,7 @@ void main() {
     const float r = length(s.P);
     const vec3 d = s.P / max(r, kBounceNear);
     const float cosIncidence = -dot(s.N, d);
-    if (s.material != 0u && cosIncidence > 0.0 && linked(source.linkGroup, s.objectId)) {
+    if (s.seen && cosIncidence > 0.0 && linked(source.linkGroup, s.objectId)) {
         const float width = 2.0 * push.tanOuter / float(push.grid);
         const float cosAxis = dot(d, source.direction);
         const float dw = width * width * cosAxis * cosAxis * cosAxis;  // (1 + u^2 + v^2)^(-3/2) is the cosine's cube

@@ -6,7 +6,7 @@
 #include "render/shaders/illuminate.glsl"
 
 // Where there is no surface, its position may be infinitely far, or no number.
-bool isSurface(ShadingPoint p) { return p.s.material != 0u; }
+bool isSurface(ShadingPoint p) { return p.s.seen; }
 
 vec4 countOf(ShadingPoint p, LightConstants light) {
     const bool useful = isSurface(p) && reaches(light, p.s.P, p.s.objectId);

@@ -26,13 +26,15 @@ ShadingPoint pointHere() {
     const ivec2 pixel = ivec2(gl_FragCoord.xy);
     const vec4 stored = texelFetch(storedSurface, pixel, 0);
     Surface s;
-    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, texelFetch(storedDepth, pixel, 0).x));
+    const float depth = texelFetch(storedDepth, pixel, 0).x;
+    s.P = unpackPosition(vec3(gl_FragCoord.xy / view.extent, depth));
     s.N = shadingFromView(unpackNormal(stored.xy));
     s.Cs0 = vec3(0);
     s.Cs1 = vec3(0);
     s.specularBlend = 0.0;
     s.roughness = stored.z;
     s.occlusion = 0.0;
+    s.seen = depth > 0.0;
     s.material = unpackIndex(stored.w);
     s.objectId = unpackIndex(texelFetch(storedObject, pixel, 0).x);
     return shadingPoint(s);

@@ -10,7 +10,8 @@ struct Surface {
     float specularBlend;  // metallic-roughness: metallic
     float roughness;
     float occlusion;
-    uint material;        // 0: there is no surface
+    bool seen;            // false: there is no surface, and the rest may be any numbers
+    uint material;        // 0 where there is no surface
     uint objectId;
 };
 #endif
