@@ -57,6 +57,29 @@ Bounds boundsOf(const Scene& scene, const Object& object) {
     return {low - kRounding * terms, high + kRounding * terms};
 }
 
+/// The colours of the vertices that a material is drawn with.
+struct VertexColors {
+    float bound = 1;    ///< no channel is larger
+    bool white = true;  ///< opaque as well
+};
+std::vector<VertexColors> vertexColorsByMaterial(const Scene& scene) {
+    std::vector<VertexColors> meshes;
+    for (const Mesh& mesh : scene.meshes) {
+        VertexColors& colors = meshes.emplace_back();
+        for (const Vertex& vertex : mesh.vertices) {
+            colors.bound = std::max({colors.bound, vertex.color.x, vertex.color.y, vertex.color.z});
+            colors.white &= vertex.color == vec4(1);
+        }
+    }
+    std::vector<VertexColors> materials(scene.materials.size());
+    for (const Object& object : scene.objects) {
+        VertexColors& colors = materials[object.material];
+        colors.bound = std::max(colors.bound, meshes[object.mesh].bound);
+        colors.white &= meshes[object.mesh].white;
+    }
+    return materials;
+}
+
 /// What the light sees: a square around its cone (docs/conventions.md, "Bounce").
 Camera bounceCamera(const Light& light) {
     mat4 worldFromView = lookAt(vec3(0), vec3(normalize(dvec3(light.directionWorld))));
@@ -173,29 +196,25 @@ size_t GpuScene::drawnMaterialStride() const {
 }
 
 void GpuScene::uploadMaterials(const Scene& scene) {
-    std::vector<float> meshColorBound;
-    for (const Mesh& mesh : scene.meshes) {
-        float bound = 1;
-        for (const Vertex& vertex : mesh.vertices) bound = std::max({bound, vertex.color.x, vertex.color.y, vertex.color.z});
-        meshColorBound.push_back(bound);
-    }
-    std::vector<float> colorBound(scene.materials.size(), 1.0f);
-    for (const Object& object : scene.objects)
-        colorBound[object.material] = std::max(colorBound[object.material], meshColorBound[object.mesh]);
-
+    const std::vector<VertexColors> colors = vertexColorsByMaterial(scene);
     const size_t drawnStride = drawnMaterialStride();
     std::vector<std::byte> drawnMaterials(scene.materials.size() * drawnStride);
     // Row 0 is "no surface": no equation, no light.
     std::vector<MaterialConstants> materials(1);
     materials[0].equation = kNoIndex;
     for (size_t i = 0; i < scene.materials.size(); ++i) {
-        const MaterialTables tables = materialTables(scene.materials[i], colorBound[i]);
+        const MaterialTables tables = materialTables(scene.materials[i], colors[i].bound);
         materials.push_back(tables.material);
         equations_ |= 1u << tables.material.equation;
         if (tables.material.cs0Scale != 1 || tables.material.cs1Scale != 1) equations_ |= kMaterialsScale;
         if (tables.material.kEmissive != 0) equations_ |= kMaterialsEmit;
         const DrawnMaterial drawn{tables.surface, tables.material};
         std::memcpy(&drawnMaterials[i * drawnStride], &drawn, sizeof drawn);
+        drawMaterials_.push_back({.surfaceShader = uint32_t(scene.materials[i].surface),
+                                  .inputs = uint32_t(!colors[i].white) << kVertexColors,
+                                  .equation = uint32_t(scene.materials[i].equation),
+                                  .masked = scene.materials[i].alphaMode == AlphaMode::mask,
+                                  .doubleSided = scene.materials[i].doubleSided});
     }
     drawnMaterials_ = gpu::uploadBuffer(context_, "drawn materials", drawnMaterials, Usage::eUniformBuffer);
     if (materials.size() <= kUniformMaterials && kUniformMaterials * sizeof(MaterialConstants) <= context_.limits().maxUniformBufferRange) equations_ |= kMaterialsFit;
@@ -262,8 +281,8 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
                                                                       .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                                       .pBufferInfo = &constants},
                                                nullptr);
-        drawMaterials_.push_back({uint32_t(material.surface), present, uint32_t(material.equation), material.alphaMode == AlphaMode::mask,
-                                  material.doubleSided, sets[i]});
+        drawMaterials_[i].inputs |= present;
+        drawMaterials_[i].set = sets[i];
     }
 }
 
@@ -429,7 +448,7 @@ void GpuScene::bindMaterial(frame::PassContext& pass, uint32_t index, const Surf
     const DrawMaterial& material = drawMaterials_[index];
     std::vector<uint32_t> constants = shading.frame;
     if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation | (equations_ & ~(kMaterialsFit - 1));
-    constants.insert(constants.end(), {material.surfaceShader, material.masked, material.textures});
+    constants.insert(constants.end(), {material.surfaceShader, material.masked, material.inputs});
     constants.insert(constants.end(), shading.own.begin(), shading.own.end());
     pass.bind({.vertex = "render/geometry/surface.vert",
                .fragment = shading.fragment,

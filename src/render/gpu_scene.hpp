@@ -118,10 +118,10 @@ private:
         int32_t firstVertex;
     };
     struct DrawMaterial {
-        uint32_t surfaceShader, textures;
+        uint32_t surfaceShader, inputs;  ///< kSurfaceShader and kInputs (surface_input.glsl)
         uint32_t equation;
         bool masked, doubleSided;
-        vk::DescriptorSet set;
+        vk::DescriptorSet set = {};
     };
     void uploadMeshes(const Scene& scene);
     void uploadObjects(const Scene& scene);

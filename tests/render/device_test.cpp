@@ -190,6 +190,51 @@ TEST_CASE("renderer: more lights than a uniform block holds are all there") {
     CHECK(beyond / within == doctest::Approx((count + 1) / count).epsilon(1e-5));
 }
 
+TEST_CASE("renderer: materials beyond what a uniform block holds are all there") {
+    const TestScene test = studio();
+    Scene many = test.scene;
+    many.materials.insert(many.materials.begin(), shared::kUniformMaterials, Material{});  // those that are seen come behind them
+    for (Object& object : many.objects) object.material += shared::kUniformMaterials;
+    ValidatedRenderer renderer;
+    for (const std::string technique : {"brute-force", "forward-loop"}) {
+        const Frame few = renderer.render(test.scene, test.view, {.lighting = technique});
+        CHECK(renderer.render(many, test.view, {.lighting = technique}).radiance.data == few.radiance.data);
+    }
+}
+
+TEST_CASE("renderer: any channel of any vertex may have a colour, on one object of a material or on all") {
+    const View view{frontCamera(), {16, 12}};
+    ValidatedRenderer renderer;
+    const auto middle = [&](const Scene& scene, const std::string& technique, bool depthFirst) {
+        return pixel(renderer.render(scene, view, {.lighting = technique, .gbuffer = GBufferLayout::calver, .depthPrepass = depthFirst}).radiance, 8, 6);
+    };
+    for (const std::string technique : {"brute-force", "forward-loop"})
+        for (const bool depthFirst : {false, true}) {
+            CAPTURE(technique);
+            CAPTURE(depthFirst);
+            for (int channel = 0; channel < 3; ++channel) {
+                Mesh colored = quad(2);
+                for (Vertex& vertex : colored.vertices) vertex.color[channel] = 0.25f;
+                vec3 expected(1);
+                expected[channel] = 0.25f;
+                Scene scene = sceneOf(colored, unlitMaterial());
+                CHECK(glm::distance(middle(scene, technique, depthFirst), expected) < 1e-4f);  // 16 bits
+                // One that is white, with the same material, hides it.
+                scene.meshes.push_back(quad(2));
+                scene.objects.push_back({.name = "white", .mesh = 1, .material = 0, .worldFromObject = glm::translate(mat4(1), vec3(0, 0, 0.5f)), .objectId = 1});
+                CHECK(glm::distance(middle(scene, technique, depthFirst), vec3(1)) < 1e-4f);
+            }
+            Mesh thin = quad(2);
+            thin.vertices[2].color.a = 0;  // the corner at the top right: half as much in the middle
+            Material masked = unlitMaterial();
+            masked.alphaMode = AlphaMode::mask;
+            masked.alphaCutoff = 0.6f;
+            CHECK(middle(sceneOf(thin, masked), technique, depthFirst) == vec3(0));
+            masked.alphaCutoff = 0.4f;
+            CHECK(glm::distance(middle(sceneOf(thin, masked), technique, depthFirst), vec3(1)) < 1e-4f);
+        }
+}
+
 TEST_CASE("renderer: times are there when measured, bytes always, and the graph names every pass") {
     const TestScene test = studio();
     ValidatedRenderer renderer;

@@ -18,7 +18,7 @@ layout(set = 2, binding = 5, scalar) uniform Material_ { DrawnMaterial material;
 
 layout(constant_id = 3) const uint kSurfaceShader = 0u;  // enum SurfaceShader
 layout(constant_id = 4) const uint kMasked = 0u;
-layout(constant_id = 5) const uint kTextures = 0u;       // bit i: slot i has a texture
+layout(constant_id = 5) const uint kInputs = 0u;         // bit i: slot i has a texture; bit kVertexColors: not all vertices are white
 
 // Interpolants are read HERE: at the pixel's centre, or, where there are several samples a pixel, at `shadingSample`, one that the
 // triangle covers, so that nothing is extrapolated.
@@ -29,7 +29,8 @@ int shadingSample;
 #define HERE(interpolant) interpolant
 #endif
 
-bool hasTexture(uint slot) { return (kTextures & (1u << slot)) != 0u; }
+bool hasInput(uint bit) { return (kInputs & (1u << bit)) != 0u; }
+bool hasTexture(uint slot) { return hasInput(slot); }
 
 // Texture of `slot` at this pixel. Derivatives are taken of the interpolants alone: in pixels outside the triangle, which
 // only help with derivatives, Mesa's software driver (22.3) reads zeros from buffers.
@@ -49,7 +50,8 @@ vec4 sampleTexture(sampler2D image, SurfaceConstants surface, uint slotIndex) {
 
 // Base colour with alpha: factor * texture * vertex colour.
 vec4 baseColor(SurfaceConstants surface) {
-    precise vec4 base = surface.baseColor * HERE(color);
+    precise vec4 base = surface.baseColor;
+    if (hasInput(kVertexColors)) base *= HERE(color);
     if (hasTexture(kTextureBaseColor)) base *= sampleTexture(textureBaseColor, surface, kTextureBaseColor);
     return base;
 }

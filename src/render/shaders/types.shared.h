@@ -31,6 +31,7 @@ const uint kTextureNormal = 2u;
 const uint kTextureOcclusion = 3u;
 const uint kTextureEmissive = 4u;
 const uint kTextureSlots = 5u;
+const uint kVertexColors = 5u;  // after the slots, in the bits that say what a material's shader reads
 
 struct TextureSlot {
     vec3 uRow;  // u' = dot(uRow, (u, v, 1))
