@@ -48,12 +48,12 @@ void addOutputOptions(CLI::App& command, OutputOptions& options) {
     addParsed(
         command, "--view",
         [&](const std::string& text) {
-            if (text != "picture" && text != "overlap")
-                throw Error(ErrorKind::usage, fmt::format("--view: expected picture or overlap, got \"{}\"", text));
-            options.shown = text == "picture" ? Shown::picture : Shown::overlap;
+            if (text != "picture" && text != "overlap" && text != "clusters")
+                throw Error(ErrorKind::usage, fmt::format("--view: expected picture, overlap or clusters, got \"{}\"", text));
+            options.shown = text == "picture" ? Shown::picture : text == "overlap" ? Shown::overlap : Shown::clusters;
         },
-        "overlap: heat maps of the lights evaluated and the lights that reach each pixel [picture]")
-        ->type_name("picture|overlap")
+        "overlap: heat maps of the lights evaluated and the lights that reach each pixel; clusters: the lists of lights of tiled and clustered techniques [picture]")
+        ->type_name("picture|overlap|clusters")
         ->group("Output");
     addParsed(
         command, "--bits",
@@ -105,9 +105,11 @@ void checkOutputs(const OutputOptions& options) {
 
 std::vector<std::string> neededAovs(const OutputOptions& options) {
     std::vector<std::string> names = options.aovs;
-    if (options.shown == Shown::overlap)
-        for (const char* name : {"evaluations", "useful-evaluations"})
-            if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+    std::vector<const char*> shown;
+    if (options.shown == Shown::overlap) shown = {"evaluations", "useful-evaluations"};
+    if (options.shown == Shown::clusters) shown = {"list-length", "list-slice"};
+    for (const char* name : shown)
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
     return names;
 }
 
@@ -120,6 +122,9 @@ void writeOutputs(const OutputOptions& options, const Frame& frame) {
             writeExr(file, layers, options.exrType);
         } else if (options.shown == Shown::overlap) {
             const Image map = overlapHeatMap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));
+            writePng(file, map, options.bits);
+        } else if (options.shown == Shown::clusters) {
+            const Image map = lightListMap(frame.aovs.at("list-length"), frame.aovs.at("list-slice"), frame.stats.lightLists->tileSize);
             writePng(file, map, options.bits);
         } else {
             writePng(file, frame.display, options.bits);

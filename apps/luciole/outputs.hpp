@@ -10,7 +10,7 @@
 
 namespace luciole::cli {
 
-enum class Shown { picture, overlap };
+enum class Shown { picture, overlap, clusters };
 
 /// What is shown of a rendered picture, and where it goes.
 struct OutputOptions {

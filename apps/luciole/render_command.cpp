@@ -60,6 +60,20 @@ void requireTechnique(const SettingOptions& options, const std::string& name) {
                 fmt::format("{}: expected one of {}, got \"{}\"", originOf(options, "lighting"), names, name));
 }
 
+/// Refuses layers of lists with techniques that make none.
+void requireLists(const OutputOptions& output, const std::string& technique) {
+    const std::vector<std::string> aovs = neededAovs(output);
+    if (std::none_of(aovs.begin(), aovs.end(), [](const std::string& aov) { return aov == "list-length" || aov == "list-slice"; })) return;
+    std::string names;
+    for (const LightingTechniqueInfo& known : lightingTechniques()) {
+        if (!known.lists) continue;
+        if (known.name == technique) return;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", known.name);
+    }
+    throw Error(ErrorKind::usage, fmt::format("{}: expected one of --lighting {}, which make lists of lights, got {}",
+                                              output.shown == Shown::clusters ? "--view clusters" : "--aov list-length, list-slice", names, technique));
+}
+
 /// Where programs may keep what they can do without (XDG Base Directory Specification); empty: nowhere.
 std::string cacheFolder() {
     const char *folder = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
@@ -90,6 +104,7 @@ void run(const RenderOptions& options) {
     requireTechnique(options.settings, settings.lighting);
     if (settings.lighting == kReference && !options.output.graphFile.empty())
         throw Error(ErrorKind::usage, "--dump-graph: the reference has no frame graph");
+    requireLists(options.output, settings.lighting);
     checkOutputs(options.output);
 
     const auto start = std::chrono::steady_clock::now();

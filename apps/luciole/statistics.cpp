@@ -96,6 +96,9 @@ std::string statisticsTable(const FrameStats& stats, const std::optional<Overlap
     if (stats.lightIndex)
         table += fmt::format("light indices: {}, {} rounds, {:.2f} MiB of images, {:.1f} KiB of tables\n", stats.lightIndex->packing,
                              stats.lightIndex->rounds, mebibytes(stats.lightIndex->imageBytes), double(stats.lightIndex->tableBytes) / 1024);
+    if (const auto& lists = stats.lightLists)
+        table += fmt::format("light lists: {} entries in {} lists, the longest of {}; tiles of {} pixels, {} page{}, {:.2f} MiB\n", lists->entries, lists->lists,
+                             lists->longest, lists->tileSize, lists->pages, lists->pages == 1 ? "" : "s", mebibytes(lists->bytes));
     return table + fmt::format("{} lights, {} triangles on {} ({})\n", stats.lights, stats.triangles, stats.deviceName,
                                stats.driver);
 }

@@ -20,7 +20,7 @@ void writePng(const std::filesystem::path& file, const Image& image, int bits = 
 enum class ExrType { half, float32 };
 /// \param layers layer "" holds R, G, B; layer NAME holds NAME.R, NAME.G, NAME.B or NAME.Y by channel count.
 ///        All of one size. Layers of distances, indices and counts (depth, material, id, light-count, evaluations,
-///        useful-evaluations, light-fingerprint) are always written as 32-bit float
+///        useful-evaluations, light-fingerprint, list-length, list-slice) are always written as 32-bit float
 void writeExr(const std::filesystem::path& file, const std::map<std::string, Image>& layers, ExrType type = ExrType::half);
 
 Image readPng(const std::filesystem::path& file);                         ///< [0, 1], 3 or 4 channels
@@ -45,5 +45,13 @@ OverlapCounts countOverlap(const Image& evaluations, const Image& useful);
 /// \throws as countOverlap
 Image overlapHeatMap(const Image& evaluations, const Image& useful);
 inline constexpr uint32_t kOverlapGap = 4;  ///< pixels between the maps
+
+/// The lists of lights that a tiled or clustered technique made, for people: two maps side by side, full resolution. On the left how many
+/// lights are in each pixel's list, on one scale from 0 to the longest, dark grey where none is; on the right the slices of depth, each in
+/// a colour of its own, with the tiles as squares of a chessboard, dark grey where there is no surface. Below them a legend.
+/// \param lengths, slices the layers list-length and list-slice (see aovNames)
+/// \param tileSize of the lists (LightListStats), pixels, >= 1
+/// \return as overlapHeatMap. \throws Error(usage) for images of other shapes
+Image lightListMap(const Image& lengths, const Image& slices, uint32_t tileSize);
 
 }  // namespace luciole

@@ -108,13 +108,17 @@ struct Frame {
 /// range, cone and volume, and linked to the object), and what the technique did, light by light, to find them:
 /// evaluations (lights that its shader evaluated at the pixel), useful-evaluations (those of them that reach the surface),
 /// light-fingerprint (a sum of one number per useful evaluation that depends on the light alone: equal fingerprints, equal
-/// lights; exact up to 4,096 of them).
+/// lights; exact up to 4,096 of them). Techniques that make lists of lights (LightingTechniqueInfo::lists) have two more: list-length (lights
+/// in the list of the pixel's tile, or of its surface's cluster) and list-slice (the slice of depth that the list is for, 0 at the near plane,
+/// 4 to an octave of distance, of an orthographic view 31 in all; 0 everywhere if lists are by tile; -1 where nothing is); with msaa those
+/// of the pixel's first sample. Of several pages' lists the lengths are added up. Surfaces that blend are left out.
 const std::vector<std::string>& aovNames();
 
 struct LightingTechniqueInfo {
     std::string_view name;
     std::string_view help;
     std::string_view source;  ///< author, year, section
+    bool lists = false;       ///< makes lists of lights by tile or cluster
 };
 const std::vector<LightingTechniqueInfo>& lightingTechniques();  ///< "reference" included
 

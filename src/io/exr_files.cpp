@@ -84,7 +84,7 @@ std::string channelName(const std::string& layer, char letter) {
 /// Layers whose numbers half can't hold exactly.
 bool alwaysFloat(std::string_view layer) {
     constexpr std::array kNames{
-        "depth", "material", "id", "light-count", "evaluations", "useful-evaluations", "light-fingerprint"};
+        "depth", "material", "id", "light-count", "evaluations", "useful-evaluations", "light-fingerprint", "list-length", "list-slice"};
     return std::find(kNames.begin(), kNames.end(), layer) != kNames.end();
 }
 

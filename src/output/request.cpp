@@ -11,9 +11,11 @@ namespace luciole {
 
 const std::vector<std::string>& aovNames() {
     static const std::vector<std::string> names{"depth", "normal", "cs0", "cs1", "material", "id", "light-count",
-                                                "evaluations", "useful-evaluations", "light-fingerprint"};
+                                                "evaluations", "useful-evaluations", "light-fingerprint", "list-length", "list-slice"};
     return names;
 }
+
+bool isListLayer(const std::string& aov) { return aov == "list-length" || aov == "list-slice"; }
 
 void checkRequest(const View& view, const std::vector<std::string>& aovs) {
     for (const uint32_t side : {view.extent.x, view.extent.y})

@@ -14,6 +14,9 @@ inline constexpr uint32_t kMaxPictureSide = 16384;  ///< pixels
 /// \throws Error(usage) for a size outside [1, kMaxPictureSide], a camera that breaks a rule of scene.hpp or an unknown AOV
 void checkRequest(const View& view, const std::vector<std::string>& aovs);
 
+/// Whether a layer tells of lists of lights, which only some techniques make.
+bool isListLayer(const std::string& aov);
+
 inline constexpr float kWidestBounce = 1.4f;  ///< radians; beyond, the square around the cone is much larger than the cone
 
 /// What keeps a light from bouncing; empty: nothing does.

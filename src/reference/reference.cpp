@@ -56,7 +56,7 @@ constexpr std::array kAovs{
     Aov{"light-fingerprint", 1, [](const Pixel& p) { return dvec3(p.fingerprint); }},
 };
 
-/// \param name one of aovNames(), checked
+/// \param name one of aovNames() that the reference has, checked
 const Aov& aovNamed(const std::string& name) {
     return *std::find_if(kAovs.begin(), kAovs.end(), [&](const Aov& aov) { return aov.name == name; });
 }
@@ -164,6 +164,7 @@ Frame renderReference(const Scene& scene, const View& view, const RenderSettings
                       const std::vector<std::string>& aovs, const std::function<bool(double)>& progress) {
     using namespace reference;
     checkRequest(view, aovs);
+    if (std::ranges::any_of(aovs, isListLayer)) throw Error(ErrorKind::usage, "aov: list-length and list-slice: the reference makes no lists of lights");
     const auto start = std::chrono::steady_clock::now();
     Frame frame;
     frame.radiance = Image(view.extent.x, view.extent.y, 3);

@@ -2,6 +2,7 @@
 #include <luciole/renderer.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,7 @@ struct FrameKey {
     RenderSettings settings;  ///< without those that are data
     bool aovs;
     bool counts;  ///< the technique runs a second time and counts
+    bool lists;   ///< its lists of lights become layers
     LightingAttempt attempt = {};
     uint32_t lights = 0;                ///< their version, where the host looked at single ones
     std::optional<Camera> camera = {};  ///< where lights are sorted by where they are seen
@@ -109,6 +111,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
                             .attempt = key.attempt,
                             .largestBuffer = context.limits().maxStorageBufferRange,
                             .report = &report};
+    if (key.lists) lighting.listLayers = graph.createImage("list-layers", {vk::Format::eR32G32B32A32Sfloat, extent});
     if (multisampled) {
         lighting.depth = graph.createImage("depth.samples", {graph.descOf(gbuffer.depth).format, extent, samples});
         addDepth(graph, scene, "geometry.depth-samples", lighting.depth);
@@ -174,6 +177,14 @@ void checkSettings(const gpu::Context& context, const RenderSettings& settings) 
                                                   "light surfaces while they are drawn take 4", settings.lighting));
     if (!(context.sampleCounts() & samplesOf(settings.msaa)))
         throw Error(ErrorKind::usage, fmt::format("msaa: expected 1, as {} shades no samples", context.info().name));
+}
+
+void requireLists(const std::string& technique) {
+    if (techniqueNamed(technique).info.lists) return;
+    std::vector<std::string_view> names;
+    for (const LightingTechnique& other : techniques())
+        if (other.info.lists) names.push_back(other.info.name);
+    throw Error(ErrorKind::usage, fmt::format("aov: list-length and list-slice expect a technique that makes lists of lights ({}), got \"{}\"", fmt::join(names, ", "), technique));
 }
 
 void checkAgainstDevice(const gpu::Context& context, uvec2 extent) {
@@ -254,10 +265,12 @@ struct Renderer::Impl {
         render::checkAgainstDevice(context, view.extent);
         render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
-        const bool others = !std::ranges::all_of(aovs, render::isCount);
+        const bool lists = std::ranges::any_of(aovs, isListLayer);
+        const bool others = std::ranges::any_of(aovs, [](const std::string& aov) { return !render::isCount(aov) && !isListLayer(aov); });
+        if (lists) render::requireLists(settings.lighting);
         if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
-        render::FrameKey key{view.extent, render::structureOf(settings), others, counts};
+        render::FrameKey key{view.extent, render::structureOf(settings), others, counts, lists};
         if (render::plansLights(settings)) key.lights = gpuScene->lightsVersion();
         if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
         // The attempt that did last time, if nothing else has changed and it was not more than needed.

@@ -169,6 +169,35 @@ TEST_CASE("cli: a scene written as glTF renders to the same geometry") {
         CHECK(written.data[i] == doctest::Approx(expected.data[i]).epsilon(1e-4));  // matrices pass through text
 }
 
+TEST_CASE("cli: with a device, --view clusters writes the map of the lists to PNG, their layers to EXR, and --json and --stats count them") {
+    const auto devices = listDevices();
+    if (std::none_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; })) {
+        MESSAGE("skipped: no usable Vulkan device");
+        return;
+    }
+    const TemporaryFolder folder;
+    const std::string png = folder / "a.png", exr = folder / "a.exr";
+    const Run run = runLuciole({"render", "builtin:hall?lights=50", "--size", "48x36", "--lighting", "clustered", "--tile-size", "8", "--view", "clusters", "-o", png, "-o",
+                                exr, "--stats", "--json"});
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    const auto layers = readExr(exr);
+    REQUIRE(layers.size() == 3);
+    const Image map = readPng(png), expected = lightListMap(layers.at("list-length"), layers.at("list-slice"), 8);
+    REQUIRE(map.data.size() == expected.data.size());
+    size_t wrong = 0;
+    for (size_t i = 0; i < map.data.size(); ++i) wrong += std::abs(map.data[i] - expected.data[i]) >= 0.51f / 255;  // rounded to nearest
+    CHECK(wrong == 0);
+    const auto lists = nlohmann::json::parse(run.out)["lightLists"];
+    CHECK(lists["tileSize"] == 8);
+    CHECK(lists["lists"].get<uint64_t>() > 6 * 4);  // there are several slices
+    CHECK(lists["longest"] == *std::ranges::max_element(layers.at("list-length").data));
+    CHECK(lists["entries"].get<uint64_t>() > lists["longest"].get<uint64_t>());
+    CHECK(lists["pages"] == 1);
+    CHECK(lists["bytes"].get<uint64_t>() >= 4 * lists["entries"].get<uint64_t>());
+    CHECK(has(run.err, "light lists: " + std::to_string(lists["entries"].get<uint64_t>()) + " entries in "));
+}
+
 TEST_CASE("cli: with a device, the default technique renders the picture and the graph") {
     const auto devices = listDevices();
     if (std::none_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; })) {

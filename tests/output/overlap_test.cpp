@@ -133,9 +133,48 @@ TEST_CASE("heat map: maps of every size stand whole in the page, and no text is 
     }
 }
 
+TEST_CASE("list map: lengths on a scale of their own, slices in different colours, tiles like a chessboard, nothing grey") {
+    const Image lengths = counts(4, 4, {0, 3, 9, 9}), slices = counts(4, 4, {-1, 0, 1, 17});
+    const Image page = lightListMap(lengths, slices, 2);
+    const uint32_t right = rightMap(page);
+    CHECK(isGrey(colorAt(page, 0, 0)));
+    CHECK(colorAt(page, 1, 0) == rgb8(0x31688e));  // viridis at 3 / 9: the fourth of ten colours
+    CHECK(colorAt(page, 3, 0) == rgb8(0xfde725));
+    CHECK(isGrey(colorAt(page, right, 0)));
+    std::set<std::vector<float>> seen;
+    for (uint32_t x = 1; x < 4; ++x) {
+        const vec3 color = colorAt(page, right + x, 0);
+        CHECK_FALSE(isGrey(color));
+        CHECK(seen.insert({color.x, color.y, color.z}).second);
+        CHECK(luminance(colorAt(page, right + x, 2)) != doctest::Approx(luminance(color)));  // the tile below
+        CHECK(colorAt(page, right + x, 1) == color);                                           // the same tile
+    }
+    for (const char* text : {"lights in the list", "tiles and slices of depth", "max 9  mean 7.00", "tile side 2  slices 3", "near", "far", "none"})
+        CHECK_MESSAGE(shows(page, 4, 1, text), text);
+}
+
+TEST_CASE("list map: slices next to each other differ in colour, up to the last of a float's octaves") {
+    Image slices(512, 1, 1);
+    for (uint32_t i = 0; i < 512; ++i) slices.at(i, 0, 0) = float(i);
+    const Image page = lightListMap(Image(512, 1, 1), slices, 1024);
+    for (uint32_t i = 1; i < 512; ++i) CHECK(glm::length(colorAt(page, rightMap(page) + i, 0) - colorAt(page, rightMap(page) + i - 1, 0)) > 0.3f);
+}
+
+TEST_CASE("list map: of a picture without surfaces there is a page, and images of other shapes are refused") {
+    Image none(5, 4, 1);
+    for (float& slice : none.data) slice = -1;
+    const Image page = lightListMap(Image(5, 4, 1), none, 16);
+    CHECK(isGrey(colorAt(page, rightMap(page), 0)));
+    CHECK(shows(page, 4, 1, "tile side 16  slices 0"));
+    for (const Image& bad : {Image(4, 5, 1), Image(5, 4, 3), Image()}) {
+        CHECK_THROWS_WITH_AS(lightListMap(Image(5, 4, 1), bad, 16), doctest::Contains("list-length, list-slice: expected"), Error);
+        CHECK_THROWS_AS(lightListMap(bad, Image(5, 4, 1), 16), Error);
+    }
+}
+
 TEST_CASE("drawing: each character of the font differs from all others, and what lies outside is cut off") {
     std::set<std::vector<float>> seen;
-    for (const char character : std::string_view("0123456789.%acdefghilmnorstuvx ")) {
+    for (const char character : std::string_view("0123456789.%acdefghilmnoprstuvx ")) {
         Image image(kCharacterWidth, kCharacterHeight, 3);
         drawText(image, 0, 0, 1, std::string_view(&character, 1), vec3(1));
         CHECK_MESSAGE(seen.insert(image.data).second, character);

@@ -9,13 +9,6 @@ using frame::PassContext;
 
 namespace {
 
-void readLists(frame::PassBuilder& pass, const LightLists& lists) {
-    pass.read(lists.tiles, Access::fragmentStorageRead, shared::kListTiles)
-        .read(lists.offsets, Access::fragmentStorageRead, shared::kListOffsets)
-        .read(lists.entries, Access::fragmentStorageRead, shared::kListEntries);
-    if (lists.clustered) pass.read(lists.firstClusters, Access::fragmentStorageRead, shared::kListFirstClusters);
-}
-
 /// The surfaces of the G-buffer, each with the lights of its list.
 void addListedSurfaces(frame::FrameGraph& graph, const LightingInputs& in, frame::ImageId sum, const LightLists& lists, bool first) {
     auto pass = graph.addPass(in.phase + in.settings.lighting);

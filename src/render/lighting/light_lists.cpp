@@ -86,6 +86,21 @@ void addLists(FrameGraph& graph, const LightingInputs& in, const std::string& na
     });
 }
 
+/// Adds a page's lists to the layers that show them.
+void addListLayers(FrameGraph& graph, const LightingInputs& in, const LightLists& lists, bool first) {
+    std::string fragment = "render/lighting/list_layers.frag";
+    auto pass = graph.addPass("output.lists");
+    pass.read(in.depth, Access::fragmentSampled, kListDepth);
+    readLists(pass, lists);
+    if (lists.clustered) fragment += "+CLUSTERED";
+    if (in.settings.msaa != Msaa::x1) fragment += "+MULTISAMPLED";
+    first ? pass.write(*in.listLayers, Access::colorWrite) : pass.update(*in.listLayers, Access::colorBlend);
+    pass.record([fragment, first, constants = with(in.constants, {lists.tileSize, lists.parts, first})](PassContext& context) {
+        context.bind({.vertex = "render/shaders/full_screen.vert", .fragment = fragment, .blend = first ? gpu::Blend::replace : gpu::Blend::add, .constants = constants});
+        context.drawFullScreen();
+    });
+}
+
 /// What the loop over a list goes through, at most: lights, and triangles of the meshes that bound them.
 struct LoopWork {
     uint64_t meshes = 0, triangles = 0;  ///< lights that a mesh bounds; of the largest mesh
@@ -122,6 +137,13 @@ std::optional<LightingAttempt> judge(LightListStats stats, LightingAttempt attem
 }
 
 }  // namespace
+
+void readLists(frame::PassBuilder& pass, const LightLists& lists) {
+    pass.read(lists.tiles, Access::fragmentStorageRead, kListTiles)
+        .read(lists.offsets, Access::fragmentStorageRead, kListOffsets)
+        .read(lists.entries, Access::fragmentStorageRead, kListEntries);
+    if (lists.clustered) pass.read(lists.firstClusters, Access::fragmentStorageRead, kListFirstClusters);
+}
 
 uint32_t tileSizeOf(const RenderSettings& settings) {
     switch (settings.tileSize) {
@@ -209,6 +231,7 @@ void addLightLists(FrameGraph& graph, const LightingInputs& in, ListsOf which,
         addLists(graph, in, name, lists, clusters, page, most, counts, counters, false);
         addPrefixSum(graph, name, {.counts = counts, .places = lists.offsets, .result = counters, .most = most * page.parts, .size = size, .factor = page.parts});
         addLists(graph, in, name, lists, clusters, page, most, counts, counters, true);
+        if (in.listLayers) addListLayers(graph, in, lists, &page == &pages.front());
         addShading(lists, &page == &pages.front(), &page == &pages.back());
     }
     if (!in.report) return;

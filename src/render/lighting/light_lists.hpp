@@ -30,6 +30,9 @@ struct ListPage {
 /// Lights [0, count) as at least `pages` pages, each cut into parts, `mostParts` or fewer, that a loop can go through.
 std::vector<ListPage> listPages(uint32_t count, uint32_t pages, uint64_t mostParts);
 
+/// Declares that a pass's fragment shaders read lists (light_lists.glsl).
+void readLists(frame::PassBuilder& pass, const LightLists& lists);
+
 /// Adds, page by page, what makes the lists and what `addShading` adds to use them. The light that is there without lights belongs to the
 /// first page. Lists that find no room are counted; the frame's report asks for another attempt then. Clusters hold surfaces that blend,
 /// too.

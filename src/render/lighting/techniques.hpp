@@ -41,6 +41,7 @@ struct LightingInputs {
     LightingAttempt attempt = {};
     uint64_t largestBuffer = 1ull << 27;  ///< bytes that a shader can see of one
     LightingReport* report = nullptr;     ///< null while counting
+    std::optional<frame::ImageId> listLayers = {};  ///< for techniques that make lists: the image that gets the layers of list_layers.frag
     frame::BufferId counts = {};      ///< with kCountsLights: what forward passes count in (forward.glsl)
 
     bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }

@@ -110,6 +110,7 @@ FrameOutputs addOutputs(frame::FrameGraph& graph, const LightingInputs& lighting
         outputs.aovs = {addReadback(graph, "aov.scalars", images[0]), addReadback(graph, "aov.normal", images[1]),
                         addReadback(graph, "aov.cs0", images[2]), addReadback(graph, "aov.cs1", images[3])};
     }
+    if (lighting.listLayers) outputs.lists = addReadback(graph, "aov.lists", *lighting.listLayers);
     return outputs;
 }
 
@@ -125,6 +126,7 @@ frame::BufferId addCounts(frame::FrameGraph& graph, const LightingInputs& lighti
     counting.phase = "counting.";
     counting.attempt.report = false;
     counting.report = nullptr;
+    counting.listLayers.reset();
     graph.addPass("counting.clear").clear(counts, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     counting.counts = graph.createBuffer("counts.forward", uint64_t(extent.width) * extent.height * shared::kForwardCounters * 4);
     graph.addPass("counting.zero").write(counting.counts, Access::transferWrite).record([buffer = counting.counts](frame::PassContext& pass) {
@@ -148,18 +150,19 @@ Frame readOutputs(const frame::Executor& executor, const FrameOutputs& outputs, 
         const char* name;
         uint32_t image, first, count;
     };
-    constexpr uint32_t kCounts = 4;
+    constexpr uint32_t kCounts = 4, kLists = 5;
     constexpr Source kSources[] = {{"depth", 0, 0, 1},  {"material", 0, 1, 1}, {"id", 0, 2, 1}, {"light-count", 0, 3, 1},
                                    {"normal", 1, 0, 3}, {"cs0", 2, 0, 3},      {"cs1", 3, 0, 3},
-                                   {"evaluations", kCounts, 0, 1}, {"useful-evaluations", kCounts, 1, 1}, {"light-fingerprint", kCounts, 2, 1}};
+                                   {"evaluations", kCounts, 0, 1}, {"useful-evaluations", kCounts, 1, 1}, {"light-fingerprint", kCounts, 2, 1},
+                                   {"list-length", kLists, 0, 1}, {"list-slice", kLists, 1, 1}};
+    const auto bufferOf = [&](uint32_t image) { return image == kCounts ? *outputs.counts : image == kLists ? *outputs.lists : (*outputs.aovs)[image]; };
     Frame frame;
     frame.radiance = radianceImage(executor, outputs.radiance, extent, format);
     frame.display = channels(executor.read<float>(outputs.display), extent, 0, 3);
     for (const Source& source : kSources)
         if (std::ranges::find(aovs, source.name) != aovs.end())
             frame.aovs[source.name] =
-                channels(executor.read<float>(source.image == kCounts ? *outputs.counts : (*outputs.aovs)[source.image]), extent,
-                         source.first, source.count);
+                channels(executor.read<float>(bufferOf(source.image)), extent, source.first, source.count);
     return frame;
 }
 

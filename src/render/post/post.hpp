@@ -20,6 +20,7 @@ struct FrameOutputs {
     frame::BufferId radiance, display;
     std::optional<std::array<frame::BufferId, 4>> aovs = {};  ///< scalars, normal, cs0, cs1 (aov.frag)
     std::optional<frame::BufferId> counts = {};               ///< contribution.glsl
+    std::optional<frame::BufferId> lists = {};                ///< list_layers.frag
 };
 FrameOutputs addOutputs(frame::FrameGraph& graph, const LightingInputs& lighting, frame::ImageId radiance,
                         frame::ImageId display, vk::Extent2D extent, bool aovs);
