@@ -59,8 +59,11 @@ std::vector<Contender> contenders(std::initializer_list<const char*> techniques)
 
 }  // namespace
 
+std::vector<Contender> listContenders() { return contenders({"tiled", "tiled-points", "clustered", "clustered-forward"}); }
 std::vector<Contender> fastContenders() {
-    return contenders({"tiled", "tiled-points", "clustered", "clustered-forward", "volume-stencil", "light-prepass", "light-indexed"});
+    std::vector<Contender> all = listContenders(), others = contenders({"volume-stencil", "light-prepass", "light-indexed"});
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
 }
 std::vector<Contender> otherContenders() { return contenders({"quad", "volume", "volume-stencil-reference", "volume-instanced"}); }
 std::vector<Contender> slowContenders() { return contenders({"brute-force", "fullscreen", "forward-loop", "forward-multipass"}); }
@@ -108,17 +111,19 @@ std::string frameTable(const std::vector<Measured>& results, std::optional<doubl
     return table;
 }
 
-std::string lightingTable(const std::vector<Measured>& results) {
+std::string timesIdeal(const Measured& result, const std::vector<Measured>& results) {
     const auto bound = std::ranges::find(results, kIdeal, &Measured::name);
+    if (bound == results.end()) return "-";
+    return fmt::format("{:.2f} ({:.2f})", median(result.lightingMs) / median(bound->lightingMs), least(result.lightingMs) / least(bound->lightingMs));
+}
+
+std::string lightingTable(const std::vector<Measured>& results) {
     std::string table =
         "| technique | lighting, ms: median (least) | lists, ms | shading, ms | times ideal | evaluations a pixel | useful | entries | "
         "longest list | lists, MiB |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
     for (const Measured& result : results) {
-        std::string times = "-";
-        if (bound != results.end())
-            times = fmt::format("{:.2f} ({:.2f})", median(result.lightingMs) / median(bound->lightingMs), least(result.lightingMs) / least(bound->lightingMs));
-        table += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} |", result.name, milliseconds(result.lightingMs),
-                             milliseconds(result.listsMs), milliseconds(result.shadingMs), times, result.evaluations, result.useful);
+        table += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {:.2f} |", result.name, milliseconds(result.lightingMs), milliseconds(result.listsMs),
+                             milliseconds(result.shadingMs), timesIdeal(result, results), result.evaluations, result.useful);
         if (const auto& lists = result.stats.lightLists)
             table += fmt::format(" {} | {} | {:.2f} |\n", lists->entries, lists->longest, double(lists->bytes) / (1 << 20));
         else

@@ -21,8 +21,10 @@ struct Contender {
 };
 Contender contender(const std::string& technique);
 
-/// The techniques that are measured where nobody names one: those with lists of lights, and the fastest of the others. `light-indexed` with
-/// lists: the one packing that holds any overlap.
+/// The techniques with lists of lights by tile or cluster.
+std::vector<Contender> listContenders();
+/// The techniques that are measured where nobody names one: those, and the fastest of the others. `light-indexed` with lists by pixel: the one
+/// packing that holds any overlap.
 std::vector<Contender> fastContenders();
 /// All others but those that take seconds a frame from some hundred lights on, which are `slowContenders`.
 std::vector<Contender> otherContenders();
@@ -57,7 +59,10 @@ std::string milliseconds(const std::vector<double>& values);
 /// Markdown: what the whole frames cost, and, if it is known, how many times longer something else takes for one.
 std::string frameTable(const std::vector<Measured>& results, std::optional<double> otherMs = {});
 
-/// Markdown: what each technique's lighting costs, and how many times that of `ideal`, if that is one of `results`.
+/// How many times the lighting time of `ideal`: of the medians (of the least); "-" if that is not one of `results`.
+std::string timesIdeal(const Measured& result, const std::vector<Measured>& results);
+
+/// Markdown: what each technique's lighting costs, and how many times that of `ideal`.
 std::string lightingTable(const std::vector<Measured>& results);
 
 }  // namespace luciole::bench

@@ -32,10 +32,6 @@ void printRow(const Measured& result, const Measured* base) {
     std::fflush(stdout);
 }
 
-std::vector<Contender> listContenders() {
-    return {contender("tiled"), contender("tiled-points"), contender("clustered"), contender("clustered-forward")};
-}
-
 std::vector<Measured> measureScene(Renderer& renderer, const Scene& scene, const Options& options) {
     renderer.setScene(scene);
     return measure(renderer, {scene.cameras.at(0), options.extent}, listContenders(), options.frames);

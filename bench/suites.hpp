@@ -28,7 +28,7 @@ void benchTiles(Renderer& renderer, const Options& options);
 /// What frames and lists cost from 255 lights to a million.
 void benchScaling(Renderer& renderer, const Options& options);
 
-/// What it costs if all lights move every frame: Renderer::setLights, median and minimum.
+/// What it costs if all lights move every frame: to set them anew, and the frames of the techniques with lists.
 void benchMovingLights(Renderer& renderer, const Options& options);
 
 }  // namespace luciole::bench
