@@ -9,27 +9,27 @@ namespace {
 constexpr uint32_t kLights[] = {255, 1024, 4096, 16384, 65536, 262144, 1048576};
 constexpr uint32_t kVisible = 1024;
 
-void printHeader(std::string_view title) {
-    fmt::print(
-        "\n{}\n\n| lights | technique | frame, ms: median (least) | lists, ms | shading, ms | entries | longest list | lists, MiB | device, MiB "
-        "| bytes a light |\n| ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-        title);
+/// \param compared rows end with what a light adds
+void printHeader(std::string_view title, bool compared) {
+    fmt::print("\n{}\n\n| lights | technique | frame, ms: median (least) | lists, ms | shading, ms | entries | longest list | lists, MiB | device, MiB |{}\n", title,
+               compared ? " bytes a light |" : "");
+    fmt::print("| ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |{}\n", compared ? " ---: |" : "");
 }
 
 double mebibytes(uint64_t bytes) { return double(bytes) / (1 << 20); }
 
 uint64_t bytesBesidesLists(const Measured& result) { return result.stats.peakBytes - result.stats.lightLists->bytes; }
 
-/// \param base of the same scene and technique with fewer lights
-void printRow(const Measured& result, const Measured* base) {
+void printRow(const Measured& result) {
     const LightListStats& lists = *result.stats.lightLists;
-    std::string bytes = "-";
-    if (base)
-        bytes = fmt::format("{:.1f}", (double(bytesBesidesLists(result)) - double(bytesBesidesLists(*base))) / (result.stats.lights - base->stats.lights));
-    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.1f} | {} |\n", result.stats.lights, result.name, milliseconds(result.wallMs),
-               milliseconds(result.listsMs), milliseconds(result.shadingMs), lists.entries, lists.longest, mebibytes(lists.bytes),
-               mebibytes(result.stats.peakBytes), bytes);
-    std::fflush(stdout);
+    fmt::print("| {} | {} | {} | {} | {} | {} | {} | {:.2f} | {:.1f} |", result.stats.lights, result.name, milliseconds(result.wallMs), milliseconds(result.listsMs),
+               milliseconds(result.shadingMs), lists.entries, lists.longest, mebibytes(lists.bytes), mebibytes(result.stats.peakBytes));
+}
+
+/// \param base the same scene and technique with fewer lights
+std::string bytesALight(const Measured& result, const Measured& base) {
+    if (result.stats.lights == base.stats.lights) return "-";
+    return fmt::format("{:.1f}", (double(bytesBesidesLists(result)) - double(bytesBesidesLists(base))) / (result.stats.lights - base.stats.lights));
 }
 
 std::vector<Measured> measureScene(Renderer& renderer, const Scene& scene, const Options& options) {
@@ -40,16 +40,24 @@ std::vector<Measured> measureScene(Renderer& renderer, const Scene& scene, const
 }  // namespace
 
 void benchScaling(Renderer& renderer, const Options& options) {
-    printHeader("Lights at overlap 4: the more, the smaller");
+    printHeader("Lights at overlap 4: the more, the smaller", false);
     for (const uint32_t lights : kLights)
-        for (const Measured& result : measureScene(renderer, builtinHall(lights, 4), options)) printRow(result, nullptr);
-    printHeader(fmt::format("{} lights in the hall, all others around it, where they light nothing that is seen", kVisible));
+        for (const Measured& result : measureScene(renderer, builtinHall(lights, 4), options)) {
+            printRow(result);
+            fmt::print("\n");
+            std::fflush(stdout);
+        }
+    printHeader(fmt::format("{} lights in the hall, all others around it, where they light nothing that is seen", kVisible), true);
     std::vector<Measured> base;
     for (const uint32_t lights : kLights) {
         if (lights < kVisible) continue;
         const std::vector<Measured> results = measureScene(renderer, hallInWorld(kVisible, lights), options);
         if (base.empty()) base = results;
-        for (size_t i = 0; i < results.size(); ++i) printRow(results[i], lights > kVisible ? &base[i] : nullptr);
+        for (size_t i = 0; i < results.size(); ++i) {
+            printRow(results[i]);
+            fmt::print(" {} |\n", bytesALight(results[i], base[i]));
+            std::fflush(stdout);
+        }
     }
 }
 
