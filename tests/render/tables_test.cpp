@@ -125,7 +125,7 @@ TEST_CASE("light table: 64 neighbours in it lie in a small part of space") {
         for (size_t i = first; i < first + 64; ++i) low = min(low, sorted.sources[i].position), high = max(high, sorted.sources[i].position);
         volume += double((high.x - low.x + 1) * (high.y - low.y + 1) * (high.z - low.z + 1));
     }
-    CHECK(volume / (lights.size() / 64) < 2 * 64);  // cubes of 4 x 4 x 4, were there one light in each place
+    CHECK(volume / (double(lights.size()) / 64) < 2 * 64);  // cubes of 4 x 4 x 4, were there one light in each place
 }
 
 TEST_CASE("light table: placed lights come last of those in balls, and reach nothing yet") {
