@@ -24,7 +24,8 @@ constexpr Suite kSuites[] = {{"frames", bench::benchFrames},
                              {"light-indexed", bench::benchLightIndexed},
                              {"tiles", bench::benchTiles},
                              {"scaling", bench::benchScaling},
-                             {"moving-lights", bench::benchMovingLights}};
+                             {"moving-lights", bench::benchMovingLights},
+                             {"advice", bench::benchAdvice}};
 
 const Suite& suiteNamed(std::string_view name) {
     std::string names;

@@ -31,4 +31,7 @@ void benchScaling(Renderer& renderer, const Options& options);
 /// What it costs if all lights move every frame: to set them anew, and the frames of the techniques with lists.
 void benchMovingLights(Renderer& renderer, const Options& options);
 
+/// How good lighting `auto` is: over a grid of configurations its choice beside the measured best, and the share of those within 10 %.
+void benchAdvice(Renderer& renderer, const Options& options);
+
 }  // namespace luciole::bench

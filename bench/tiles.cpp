@@ -51,7 +51,7 @@ void printFrames(const std::vector<Cell>& all) {
         double missed = 0;
         for (const Measured& result : cell.results) {
             const bool list = std::ranges::find(lists, result.name, &Contender::name) != lists.end();
-            if (list) row += " " + milliseconds(result.wallMs) + " |";
+            if (list) row += fmt::format(" {} |", milliseconds(result.wallMs));
             missed += result.missed;
             const Measured*& place = list ? best : other;
             if (result.name != ideal().name && (!place || least(result.wallMs) < least(place->wallMs))) place = &result;

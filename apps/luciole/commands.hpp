@@ -7,6 +7,7 @@ namespace luciole::cli {
 // stderr; failures leave as luciole::Error.
 void addRenderCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
+void addAdviseCommand(CLI::App& app);
 void addSceneCommand(CLI::App& app);
 void addDevicesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);

@@ -72,6 +72,7 @@ int run(int argc, char** argv) {
     app.footer(helpFooter);
     cli::addRenderCommand(app);
     cli::addInfoCommand(app);
+    cli::addAdviseCommand(app);
     cli::addSceneCommand(app);
     cli::addDevicesCommand(app);
     cli::addSettingsCommand(app);

@@ -1,19 +1,15 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <luciole/error.hpp>
 #include <luciole/reference.hpp>
 #include <memory>
 #include <optional>
 
 #include "commands.hpp"
-#include "default_light.hpp"
-#include "options.hpp"
 #include "outputs.hpp"
+#include "request.hpp"
 #include "statistics.hpp"
-#include "view.hpp"
 
 namespace luciole::cli {
 namespace {
@@ -21,13 +17,8 @@ namespace {
 constexpr std::string_view kReference = "reference";  ///< the one technique that needs no device
 
 struct RenderOptions {
-    SceneOptions scene;
-    ViewOptions view;
-    SettingOptions settings;
+    FrameRequest request;
     OutputOptions output;
-    RendererOptions renderer = deviceDefaults();
-    Console console;
-    bool defaultLight = true;
     bool json = false;
     bool stats = false;
 };
@@ -35,29 +26,7 @@ struct RenderOptions {
 void addReportOptions(CLI::App& command, RenderOptions& options) {
     command.add_flag("--json", options.json, "print statistics as JSON on standard output; implies --measure")->group("Messages");
     command.add_flag("--stats", options.stats, "print a table of the passes on standard error; implies --measure")->group("Messages");
-    addConsoleOptions(command, options.console);
-}
-
-void addDefaultLightOption(CLI::App& command, RenderOptions& options) {
-    addParsed(
-        command, "--default-light",
-        [&](const std::string& text) {
-            if (text != "auto" && text != "off")
-                throw Error(ErrorKind::usage, fmt::format("--default-light: expected auto or off, got \"{}\"", text));
-            options.defaultLight = text == "auto";
-        },
-        "auto: light a scene that has no light of its own [auto]")
-        ->type_name("auto|off")
-        ->group("Scene");
-}
-
-void requireTechnique(const SettingOptions& options, const std::string& name) {
-    const auto& known = lightingTechniques();
-    if (std::any_of(known.begin(), known.end(), [&](const auto& technique) { return technique.name == name; })) return;
-    std::string names;
-    for (const auto& technique : known) names += fmt::format("{}{}", names.empty() ? "" : ", ", technique.name);
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: expected one of {}, got \"{}\"", originOf(options, "lighting"), names, name));
+    addConsoleOptions(command, options.request.console);
 }
 
 /// Refuses layers of lists with techniques that make none.
@@ -74,34 +43,27 @@ void requireLists(const OutputOptions& output, const std::string& technique) {
                                               output.shown == Shown::clusters ? "--view clusters" : "--aov list-length, list-slice", names, technique));
 }
 
-/// Where programs may keep what they can do without (XDG Base Directory Specification); empty: nowhere.
-std::string cacheFolder() {
-    const char *folder = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-    if (folder && *folder == '/') return std::string(folder) + "/luciole";
-    return home && *home == '/' ? std::string(home) + "/.cache/luciole" : "";
-}
-
 Frame renderFrame(const RenderOptions& options, const RenderSettings& settings, const Scene& scene, const View& view) {
     const std::vector<std::string> aovs = neededAovs(options.output);
-    ProgressLine progress(options.console, "rendering:");
+    const Console& console = options.request.console;
+    ProgressLine progress(console, "rendering:");
     if (settings.lighting == kReference)
         return renderReference(scene, view, settings, aovs, [&](double share) {
             progress.show(share);
             return true;
         });
-    RendererOptions rendererOptions = options.renderer;
-    rendererOptions.cacheFolder = cacheFolder();
-    Renderer renderer(rendererOptions);
-    options.console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
+    Renderer renderer(rendererOptions(options.request));
+    console.detail(fmt::format("device: {}, {}", renderer.device().name, renderer.device().driver));
     renderer.setScene(scene);
     return renderer.render(view, settings, aovs);
 }
 
 /// Everything that can be refused is checked before the scene is read, and again before the frame is rendered.
 void run(const RenderOptions& options) {
-    RenderSettings settings = resolve(options.settings);
+    const Console& console = options.request.console;
+    RenderSettings settings = resolve(options.request.settings);
     settings.measure |= options.json || options.stats;  // whoever asks for the passes wants their times
-    requireTechnique(options.settings, settings.lighting);
+    requireTechnique(options.request.settings, settings.lighting);
     if (settings.lighting == kReference && !options.output.graphFile.empty())
         throw Error(ErrorKind::usage, "--dump-graph: the reference has no frame graph");
     requireLists(options.output, settings.lighting);
@@ -111,22 +73,18 @@ void run(const RenderOptions& options) {
     const auto sinceStart = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    Scene scene = loadScene(options.scene, options.console);
-    options.console.detail(fmt::format("{:.2f} s: scene loaded", sinceStart()));
-    const View view = chooseView(scene, options.view);
-    if (options.defaultLight && needsDefaultLight(scene)) {
-        addDefaultLight(scene, view.camera);
-        options.console.note("the scene has no light; added a soft one (--default-light off leaves it dark)");
-    }
+    const auto [scene, view] = loadSceneAndView(options.request);
+    console.detail(fmt::format("{:.2f} s: scene loaded", sinceStart()));
     const Frame frame = renderFrame(options, settings, scene, view);
-    options.console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
+    console.detail(fmt::format("{:.2f} s: frame rendered", sinceStart()));
     writeOutputs(options.output, frame);
-    options.console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
+    console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
     if (frame.stats.lightIndex)
-        if (const std::string note = overflowNote(*frame.stats.lightIndex, scene); !note.empty()) options.console.note(note);
+        if (const std::string note = overflowNote(*frame.stats.lightIndex, scene); !note.empty()) console.note(note);
     std::optional<OverlapCounts> counts;
     if (options.output.shown == Shown::overlap)
         counts = countOverlap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));
+    if (options.stats && frame.stats.choice) console.note(frame.stats.choice->reason);
     if (options.stats) say(statisticsTable(frame.stats, counts));
     if (options.json) fmt::print("{}\n", statisticsJson(frame, settings, counts));
 }
@@ -136,12 +94,9 @@ void run(const RenderOptions& options) {
 void addRenderCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "render a scene to a picture");
     const auto options = std::make_shared<RenderOptions>();
-    addSceneOptions(*command, options->scene);
-    addDefaultLightOption(*command, *options);
-    addViewOptions(*command, options->view);
-    addSettingOptions(*command, options->settings);
+    addSceneAndViewOptions(*command, options->request);
     addOutputOptions(*command, options->output);
-    addDeviceOptions(*command, options->renderer);
+    addDeviceOptions(*command, options->request.renderer);
     addReportOptions(*command, *options);
     command->footer(
         "Examples:\n"

@@ -59,6 +59,12 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
         for (const LightIndexStats::Lost& lost : index->lost)
             json["lightIndex"]["lost"].push_back({{"light", lost.light}, {"pairs", lost.pairs}, {"radiance", lost.radiance}});
     }
+    if (const auto& choice = stats.choice)
+        json["auto"] = {{"technique", choice->technique},
+                        {"reason", choice->reason},
+                        {"countingFrames", choice->countingFrames},
+                        {"calibrationFrames", choice->calibrationFrames},
+                        {"calibrationMs", choice->calibrationMs}};
     if (const auto& lists = stats.lightLists)
         json["lightLists"] = {{"tileSize", lists->tileSize}, {"lists", lists->lists}, {"entries", lists->entries},
                               {"longest", lists->longest},   {"pages", lists->pages}, {"bytes", lists->bytes}};

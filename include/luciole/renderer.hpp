@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <luciole/advice.hpp>
 #include <luciole/image.hpp>
 #include <luciole/scene.hpp>
 #include <luciole/settings.hpp>
@@ -36,7 +37,7 @@ struct RendererOptions {
     std::string device;       ///< index or part of a name; empty: the first discrete GPU, else any GPU, else software
     bool validation = false;  ///< core and synchronization validation; messages go to `onMessage`
     std::function<void(std::string_view)> onMessage;  ///< validation messages; may be empty
-    std::string cacheFolder;  ///< where outcomes of the packings' self-tests are kept from one start to the next; empty: nowhere
+    std::string cacheFolder;  ///< where what was measured on a device is kept from one start to the next; empty: nowhere
 };
 
 struct PassStats {
@@ -72,6 +73,15 @@ struct LightIndexStats {
     uint32_t withoutIndex = 0; ///< lights that every fragment looks at (lidr-types)
 };
 
+/// What lighting `auto` did.
+struct LightingChoice {
+    std::string technique;           ///< that made the frame
+    std::string reason;              ///< one line: what was chosen and why
+    uint32_t countingFrames = 0;     ///< LightingAdvice, of this frame
+    uint32_t calibrationFrames = 0;
+    double calibrationMs = 0;
+};
+
 /// The lists of lights that tiled and clustered techniques made.
 struct LightListStats {
     uint32_t tileSize = 0;  ///< pixels
@@ -91,6 +101,7 @@ struct FrameStats {
     uint32_t lights = 0;
     std::optional<LightIndexStats> lightIndex;
     std::optional<LightListStats> lightLists;
+    std::optional<LightingChoice> choice;  ///< lighting `auto` only
     std::string deviceName, driver;
 };
 
@@ -120,7 +131,7 @@ struct LightingTechniqueInfo {
     std::string_view source;  ///< author, year, section
     bool lists = false;       ///< makes lists of lights by tile or cluster
 };
-const std::vector<LightingTechniqueInfo>& lightingTechniques();  ///< "reference" included
+const std::vector<LightingTechniqueInfo>& lightingTechniques();  ///< "auto" and "reference" included
 
 /// A Vulkan device and what is kept on it between frames. Not thread-safe; use one per thread.
 class Renderer {
@@ -147,6 +158,11 @@ public:
     /// Renders one picture of the scene set last (an empty one at first) and waits for it.
     /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs = {});
+
+    /// What lighting `auto` would choose for such a frame, and what is known of every technique; settings.lighting does not matter.
+    /// Renders a small picture of the scene, and, where the device is not known yet, others (docs/techniques/auto.md).
+    /// \throws as render
+    LightingAdvice advise(const View& view, const RenderSettings& settings);
 
 private:
     struct Impl;

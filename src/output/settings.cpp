@@ -114,7 +114,7 @@ std::string textOf(const Setting& setting, const nlohmann::json& value) {
 std::span<const Setting> settingsTable() {
     static const std::array kTable{
         Setting{.name = "lighting",
-                .help = "lighting technique; `luciole techniques` lists them",
+                .help = "lighting technique; `luciole techniques` lists them, auto chooses",
                 .type = "name",
                 .get = [](const RenderSettings& settings) { return settings.lighting; },
                 .set = [](RenderSettings& settings, std::string_view value) { settings.lighting = value; }},

@@ -447,7 +447,7 @@ void GpuScene::bindMeshes(frame::PassContext& pass) const {
 void GpuScene::bindMaterial(frame::PassContext& pass, uint32_t index, const SurfaceShading& shading) const {
     const DrawMaterial& material = drawMaterials_[index];
     std::vector<uint32_t> constants = shading.frame;
-    if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation | (equations_ & ~(kMaterialsFit - 1));
+    if (shading.oneEquation) constants[kConstantEquations] = 1u << material.equation | (equations_ & ~kEquationBits);
     constants.insert(constants.end(), {material.surfaceShader, material.masked, material.inputs});
     constants.insert(constants.end(), shading.own.begin(), shading.own.end());
     pass.bind({.vertex = "render/geometry/surface.vert",

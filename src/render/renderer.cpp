@@ -6,12 +6,18 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <map>
 
 #include "frame/executor.hpp"
 #include "frame/pass_context.hpp"
 #include "gpu/errors.hpp"
 #include "gpu/shaders.hpp"
 #include "output/request.hpp"
+#include "render/advice/advice.hpp"
+#include "render/advice/calibration.hpp"
+#include "render/advice/counts.hpp"
+#include "render/driver_cache.hpp"
 #include "render/geometry/gbuffer.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/lighting/forward.hpp"
@@ -147,14 +153,22 @@ bool sortsByView(const RenderSettings& settings, const GpuScene& scene) {
     return sortsArrays(settings) && onTheWay;
 }
 
-/// The settings that the frame's structure depends on. Forward techniques compute positions from depth, as the compact layout does.
-RenderSettings structureOf(RenderSettings settings) {
-    if (techniqueNamed(settings.lighting).forward) settings.gbuffer = GBufferLayout::compact;
+RenderSettings withoutData(RenderSettings settings) {
     const RenderSettings defaults;
     settings.cullLights = defaults.cullLights;
     settings.exposureEv = defaults.exposureEv;
     settings.measure = defaults.measure;
     return settings;
+}
+
+/// The settings that the frame's structure depends on. Forward techniques compute positions from depth, as the compact layout does.
+RenderSettings structureOf(RenderSettings settings) {
+    if (techniqueNamed(settings.lighting).forward) settings.gbuffer = GBufferLayout::compact;
+    return withoutData(std::move(settings));
+}
+
+bool drawsPointsOfTiles(const gpu::Context& context, const RenderSettings& settings) {
+    return context.largestPoint() >= float(tileSizeOf(settings)) && context.passedOn() >= kPassedOn;
 }
 
 void checkSettings(const gpu::Context& context, const RenderSettings& settings) {
@@ -166,10 +180,9 @@ void checkSettings(const gpu::Context& context, const RenderSettings& settings) 
     if (settings.bounceLight != "none" && (technique.onHost || sorts))
         throw Error(ErrorKind::usage, fmt::format("bounce-light: expected none with lighting {}, where the host looks at each light: the lights "
                                                   "of a bounce are made on the device", settings.lighting + (sorts ? " and a packing that sorts" : "")));
-    const uint32_t tileSize = tileSizeOf(settings);
-    if (technique.points && (context.largestPoint() < float(tileSize) || context.passedOn() < kPassedOn))
+    if (technique.points && !drawsPointsOfTiles(context, settings))
         throw Error(ErrorKind::usage, fmt::format("lighting: expected another technique than {}, which needs points of {} pixels and {} values passed on to "
-                                                  "fragment shaders; {} has {} and {}", settings.lighting, tileSize, kPassedOn,
+                                                  "fragment shaders; {} has {} and {}", settings.lighting, tileSizeOf(settings), kPassedOn,
                                                   context.info().name, context.largestPoint(), context.passedOn()));
     if (settings.msaa == Msaa::x1) return;
     if (!technique.samples)
@@ -195,17 +208,42 @@ void checkAgainstDevice(const gpu::Context& context, uvec2 extent) {
                                                   context.info().name, extent.x, extent.y));
 }
 
+/// Whether counts that were taken with one camera still tell what another sees: it moved by less than a twentieth of the distance to what
+/// is seen, turned by less than a tenth of the field of view, and sees as much.
+bool seesAlike(const Camera& a, const Camera& b, double distance) {
+    const dmat4 between = inverse(dmat4(a.worldFromView)) * dmat4(b.worldFromView);
+    const double turn = std::acos(std::clamp(0.5 * (between[0][0] + between[1][1] + between[2][2] - 1), -1.0, 1.0));
+    Camera moved = b;
+    moved.worldFromView = a.worldFromView;
+    moved.name = a.name;
+    const double span = a.orthographic ? 2.0 * a.halfHeight / std::max(distance, 1e-9) : double(a.yFov);
+    return moved == a && length(dvec3(between[3])) < distance / 20 && turn < span / 10;
+}
+
+/// Advice for the scene, and what it holds for.
+struct Advised {
+    View view;
+    RenderSettings settings;  ///< without those that are data
+    bool lists = false;       ///< Circumstances
+    LightingAdvice advice;
+    uint32_t lightsMoved = 0;  ///< times since then
+};
+
+constexpr uint32_t kMostLightMoves = 60;  ///< after so many of them what they reach is counted again
+
 }  // namespace
 }  // namespace render
 
 struct Renderer::Impl {
     explicit Impl(const RendererOptions& options)
-        : context(options), pipelines(context, gpu::shaderCode), selfTest(context, pipelines, options.cacheFolder) {
+        : context(options), pipelines(context, gpu::shaderCode), selfTest(context, pipelines, options.cacheFolder),
+          calibrations(options.cacheFolder, "lighting-costs", render::kCostModelVersion, context.info()) {
         setScene({});
     }
 
     void setScene(const Scene& scene) {
         frame.reset();
+        advised.reset();
         gpuScene.reset();  // before the new one is made: both may not fit
         lightRules = {};
         try {
@@ -221,7 +259,10 @@ struct Renderer::Impl {
 
     void setLights(std::span<const Light> lights) {
         validate(lights, lightRules);
-        if (gpuScene->setLights(lights)) frame.reset();
+        const uint32_t before = gpuScene->lightCount();
+        const bool changed = gpuScene->setLights(lights);
+        if (changed) frame.reset();
+        if (advised && (changed || gpuScene->lightCount() != before || ++advised->lightsMoved == render::kMostLightMoves)) advised.reset();
     }
 
     /// How the packing that the settings ask for fares on the device.
@@ -260,9 +301,114 @@ struct Renderer::Impl {
         return stats;
     }
 
-    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
+    /// What a frame costs on this device in this variant; measured if it isn't known yet, while the scene that was set waits.
+    render::Coefficients coefficients(const render::CostVariant& variant, LightingAdvice& told) {
+        const std::string key = variant.key();
+        const std::string* kept = calibrations.find(key);
+        if (const auto known = kept ? render::coefficientsFrom(*kept) : std::nullopt; known && render::coversModels(*known, variant.settings))
+            return *known;
+        const auto start = std::chrono::steady_clock::now();
+        std::unique_ptr<render::GpuScene> waitingScene = std::exchange(gpuScene, nullptr);
+        std::unique_ptr<render::BuiltFrame> waitingFrame = std::exchange(frame, nullptr);
+        const auto goOn = [&] {
+            frame = std::move(waitingFrame);
+            gpuScene = std::move(waitingScene);
+        };
+        render::Coefficients coefficients;
+        try {
+            coefficients = render::fit(calibrate(variant, told.calibrationFrames), variant.settings);
+        } catch (...) {
+            frame.reset();
+            goOn();
+            throw;
+        }
+        frame.reset();
+        goOn();
+        calibrations.keep(key, render::textOf(coefficients));
+        told.calibrationMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+        return coefficients;
+    }
+
+    std::vector<render::CostSample> calibrate(const render::CostVariant& variant, uint32_t& frames) {
+        std::vector<render::CostSample> samples;
+        for (const render::CalibrationView& calibration : render::calibrationViews(variant)) {
+            frame.reset();
+            gpuScene = std::make_unique<render::GpuScene>(context, pipelines, calibration.scene);
+            const View& view = calibration.view;
+            RenderSettings settings = variant.settings;
+            settings.bounceLight = "none";
+            const SceneCounts counts = render::countScene(context, pipelines, *gpuScene, view, settings, settings.gbuffer);
+            const bool many = counts.covered * counts.lights > render::kMostCalibrationPairs;
+            std::map<std::string, double> least;
+            for (uint32_t round = 0; round < render::kCalibrationRounds; ++round)
+                for (const render::CostModel& model : render::costModels()) {
+                    settings.lighting = model.technique;
+                    if (many && model.evaluatesAll()) continue;
+                    if (!render::whyNot(render::techniqueNamed(settings.lighting), settings, circumstances(settings)).empty()) continue;
+                    // The first frame compiles shaders and touches new memory.
+                    render(view, settings, {});
+                    const double ms = render(view, settings, {}).stats.wallMs;
+                    frames += 2;
+                    double& best = least.try_emplace(settings.lighting, ms).first->second;
+                    best = std::min(best, ms);
+                }
+            for (const auto& [technique, ms] : least) samples.push_back({technique, counts, ms});
+        }
+        return samples;
+    }
+
+    render::Circumstances circumstances(const RenderSettings& settings, bool lists = false) const {
+        return {.lights = gpuScene->lightCount(),
+                .bounce = gpuScene->bounce().has_value(),
+                .samples = bool(context.sampleCounts() & render::samplesOf(Msaa::x4)),
+                .feedback = context.feedbackLoops(),
+                .points = render::drawsPointsOfTiles(context, settings),
+                .lists = lists};
+    }
+
+    /// The choice for a view, and what it rests on. What was found out for a view that is about the same holds on.
+    LightingAdvice advise(const View& view, const RenderSettings& wanted, bool lists = false) {
+        RenderSettings settings = render::withoutData(wanted);
+        settings.lighting = render::kAutoLighting;
+        settings.toneMap = RenderSettings{}.toneMap;  // which costs all techniques the same
+        if (advised && advised->view.extent == view.extent && advised->settings == settings && advised->lists == lists &&
+            render::seesAlike(advised->view.camera, view.camera, advised->advice.counts.meanDistance)) {
+            advised->advice.countingFrames = advised->advice.calibrationFrames = 0;
+            advised->advice.calibrationMs = 0;
+            return advised->advice;
+        }
+        if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
+        const SceneCounts counts = render::countScene(context, pipelines, *gpuScene, view, settings, settings.gbuffer);
+        LightingAdvice told;
+        render::CostVariant variant{settings, gpuScene->equations() & shared::kEquationBits, (gpuScene->lightFeatures() & shared::kUsesUniformLights) != 0};
+        variant.settings.bounceLight = RenderSettings{}.bounceLight;
+        variant.settings.bounceGrid = RenderSettings{}.bounceGrid;
+        const render::Coefficients costs = coefficients(variant, told);
+        LightingAdvice advice = render::advise(counts, settings, circumstances(settings, lists), costs);
+        advice.countingFrames = 1;
+        advice.calibrationFrames = told.calibrationFrames;
+        advice.calibrationMs = told.calibrationMs;
+        advised = {view, settings, lists, advice};
+        return advice;
+    }
+
+    void check(const View& view, const std::vector<std::string>& aovs) const {
         checkRequest(view, aovs);
         render::checkAgainstDevice(context, view.extent);
+    }
+
+    /// Checked, and with lighting `auto` made into a technique.
+    Frame renderChosen(const View& view, RenderSettings settings, const std::vector<std::string>& aovs) {
+        check(view, aovs);
+        if (settings.lighting != render::kAutoLighting) return render(view, settings, aovs);
+        const LightingAdvice advice = advise(view, settings, std::ranges::any_of(aovs, isListLayer));
+        settings.lighting = advice.technique;
+        Frame result = render(view, settings, aovs);
+        result.stats.choice = {advice.technique, advice.reason, advice.countingFrames, advice.calibrationFrames, advice.calibrationMs};
+        return result;
+    }
+
+    Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
         render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
         const bool lists = std::ranges::any_of(aovs, isListLayer);
@@ -297,9 +443,11 @@ struct Renderer::Impl {
     gpu::Context context;
     gpu::Pipelines pipelines;
     render::LightIndexSelfTest selfTest;
+    render::DriverCache calibrations;
     std::unique_ptr<render::GpuScene> gpuScene;
     Scene lightRules;  ///< what the rules of the scene's lights refer to, and nothing else of it
     std::unique_ptr<render::BuiltFrame> frame;
+    std::optional<render::Advised> advised;
 };
 
 using gpu::translatingVulkanErrors;
@@ -321,7 +469,14 @@ void Renderer::setLights(std::span<const Light> lights) {
 }
 
 Frame Renderer::render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
-    return translatingVulkanErrors([&] { return impl_->render(view, settings, aovs); });
+    return translatingVulkanErrors([&] { return impl_->renderChosen(view, settings, aovs); });
+}
+
+LightingAdvice Renderer::advise(const View& view, const RenderSettings& settings) {
+    return translatingVulkanErrors([&] {
+        impl_->check(view, {});
+        return impl_->advise(view, settings);
+    });
 }
 
 }  // namespace luciole

@@ -120,5 +120,5 @@ TEST_CASE("lighting: a 16-bit light buffer loses at most a unit in the last plac
 }
 
 TEST_CASE("lighting: an unknown name is refused with the names there are") {
-    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of brute-force, fullscreen, quad, volume, volume-stencil, volume-stencil-reference, volume-instanced, tiled, tiled-points, clustered, clustered-forward, forward-loop, light-indexed, forward-multipass, light-prepass, got \"tilde\""), Error);
+    CHECK_THROWS_WITH_AS(render::techniqueNamed("tilde"), doctest::Contains("expected one of auto, brute-force, fullscreen, quad, volume, volume-stencil, volume-stencil-reference, volume-instanced, tiled, tiled-points, clustered, clustered-forward, forward-loop, light-indexed, forward-multipass, light-prepass, got \"tilde\""), Error);
 }

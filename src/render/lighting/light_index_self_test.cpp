@@ -2,12 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
+#include <charconv>
 #include <chrono>
-#include <fstream>
-#include <luciole/error.hpp>
-#include <luciole/output.hpp>
 
 #include "frame/executor.hpp"
 #include "frame/pass_context.hpp"
@@ -59,57 +55,25 @@ uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, con
 
 LightIndexSelfTest::LightIndexSelfTest(const gpu::Context& context, gpu::Pipelines& pipelines,
                                        const std::string& cacheFolder)
-    : context_(context), pipelines_(pipelines) {
-    if (cacheFolder.empty()) return;
-    // By name and version: Mesa's software driver (22.3) has one UUID for all of its versions.
-    std::string name = "light-index " + context.info().name + " " + context.info().driver;
-    std::ranges::replace_if(
-        name, [](unsigned char c) { return !std::isalnum(c) && c != '.'; }, '-');
-    file_ = std::filesystem::path(cacheFolder) / name.substr(0, 200);
-    load();
-}
+    : context_(context), pipelines_(pipelines), cache_(cacheFolder, "light-index", 1, context.info()) {}
 
-// One line an outcome: what was tried, a tab, how many values were wrong. Anything else is as good as no line.
-void LightIndexSelfTest::load() {
-    std::ifstream stream(file_);
-    for (std::string line; std::getline(stream, line);) {
-        const size_t tab = line.find('\t');
-        if (tab == std::string::npos || tab + 1 >= line.size() ||
-            line.find_first_not_of("0123456789", tab + 1) != std::string::npos)
-            continue;
-        outcomes_[line.substr(0, tab)] = {uint32_t(std::strtoul(line.c_str() + tab + 1, nullptr, 10)), 0};
-    }
-}
-
-void LightIndexSelfTest::save() const {
-    if (file_.empty()) return;
-    std::string text;
-    for (const auto& [name, outcome] : outcomes_) text += fmt::format("{}\t{}\n", name, outcome.wrong);
-    try {
-        std::filesystem::create_directories(file_.parent_path());
-        writeFileAtomically(file_, std::as_bytes(std::span(text)));
-    } catch (const std::exception&) {  // the next start tries again
-    }
-}
-
-const LightIndexSelfTest::Outcome& LightIndexSelfTest::of(const IndexLayout& layout) {
+LightIndexSelfTest::Outcome LightIndexSelfTest::of(const IndexLayout& layout) {
     const shared::IndexPacking& p = layout.packing;
     const std::string name = fmt::format("{} {} {}",
                                          p.kind == shared::kPackedBits       ? "bits"
                                          : p.kind == shared::kPackedChannels ? "channels"
                                                                              : "extremes",
                                          p.entryBits, vk::to_string(layout.format));
-    const auto known = outcomes_.find(name);
-    if (known != outcomes_.end()) {
-        known->second.ms = 0;
-        return known->second;
+    uint32_t wrong = 0;
+    if (const std::string* known = cache_.find(name)) {
+        const auto [end, error] = std::from_chars(known->data(), known->data() + known->size(), wrong);
+        if (error == std::errc() && end == known->data() + known->size()) return {wrong, 0};
     }
     const auto start = std::chrono::steady_clock::now();
-    const uint32_t wrong = wrongValues(context_, pipelines_, layout, blendShift(p));
+    wrong = wrongValues(context_, pipelines_, layout, blendShift(p));
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    const Outcome& outcome = outcomes_[name] = {wrong, took.count()};
-    save();
-    return outcome;
+    cache_.keep(name, std::to_string(wrong));
+    return {wrong, took.count()};
 }
 
 }  // namespace luciole::render

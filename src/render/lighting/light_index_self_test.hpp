@@ -1,9 +1,8 @@
 #pragma once
-#include <filesystem>
-#include <map>
 #include <string>
 
 #include "gpu/pipelines.hpp"
+#include "render/driver_cache.hpp"
 #include "render/lighting/light_index_plan.hpp"
 
 namespace luciole::render {
@@ -16,7 +15,7 @@ float blendShift(const shared::IndexPacking& packing);
 uint32_t wrongValues(const gpu::Context& context, gpu::Pipelines& pipelines, const IndexLayout& layout, float shift);
 
 /// Packing rests on how exactly a device blends, so each packing is tried on the device before its first use; the
-/// outcome is kept for the next start in a file of its own for each driver.
+/// outcome is kept for the next start.
 class LightIndexSelfTest {
 public:
     /// \param cacheFolder empty: nothing is kept
@@ -26,16 +25,12 @@ public:
         uint32_t wrong;  ///< values
         double ms;       ///< that the test took; 0 if it was run before
     };
-    const Outcome& of(const IndexLayout& layout);
+    Outcome of(const IndexLayout& layout);
 
 private:
-    void load();
-    void save() const;
-
     const gpu::Context& context_;
     gpu::Pipelines& pipelines_;
-    std::filesystem::path file_;  ///< empty: none
-    std::map<std::string, Outcome> outcomes_;
+    DriverCache cache_;
 };
 
 }  // namespace luciole::render

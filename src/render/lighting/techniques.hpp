@@ -67,7 +67,12 @@ struct LightingTechnique {
     bool whole = false;   ///< deferred: sets `sum` to all the light there is, surfaces that blend included
     bool points = false;  ///< draws points as large as a tile, that bring along kBatchTexels (tiled_points.shared.h)
     bool onHost = false;  ///< the host looks at each light, so that none can be made on the device
+    bool blendsLights = false;  ///< adds light by light to the light buffer, which rounds each sum
+    std::string_view whyInexact = {};  ///< why it may differ from its yardstick by more than the rounding of sums; empty: it may not
 };
+
+/// The value of setting `lighting` that stands for a choice between the techniques, and is none of them.
+inline constexpr std::string_view kAutoLighting = "auto";
 
 /// One row per technique: its name on the command line, its image tests and its place in the docs come from here.
 const std::vector<LightingTechnique>& techniques();

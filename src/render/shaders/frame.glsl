@@ -26,7 +26,7 @@ bool usesMaterials(uint bit) { return (kEquations & bit) != 0u; }
 bool usesEquation(uint equation) { return usesMaterials(1u << equation); }
 // Whether a surface's equation is this one: where there is no other, without a look at its material.
 bool isEquation(uint equation, MaterialConstants material) {
-    const bool alone = (kEquations & (kMaterialsFit - 1u)) == 1u << equation;
+    const bool alone = (kEquations & kEquationBits) == 1u << equation;
     return alone || (usesEquation(equation) && material.equation == equation);
 }
 MaterialConstants materialAt(uint index) {

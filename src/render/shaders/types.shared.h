@@ -99,6 +99,7 @@ const uint kFunctionSamples = 4097u;
 // Specialization constants that all passes of a frame share.
 const uint kConstantLayout = 0u;     // enum GBufferLayout
 const uint kConstantEquations = 1u;  // bit e: some material uses equation e; and what else there is of materials:
+const uint kEquationBits = 255u;
 const uint kMaterialsFit = 256u;     // all fit into a uniform buffer, the faster way to read them
 const uint kMaterialsScale = 512u;   // some have a cs0Scale or cs1Scale other than 1
 const uint kMaterialsEmit = 1024u;   // some have a kEmissive other than 0
