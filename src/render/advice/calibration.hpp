@@ -24,7 +24,9 @@ struct CalibrationView {
 /// that blend and without, in pictures of several sizes.
 std::vector<CalibrationView> calibrationViews(const CostVariant& variant);
 
-inline constexpr uint32_t kCalibrationRounds = 2;     ///< so often all techniques take their turn with a picture; the fastest frame counts
+/// So often all techniques take their turn with a picture, one soon after the other, as GPUs change their clocks; the fastest frame counts.
+inline constexpr uint32_t kCalibrationRounds = 2;
+inline constexpr double kCalibrationMs = 6;           ///< of frames that are measured, in each turn
 inline constexpr double kMostCalibrationPairs = 4e6;  ///< of a light and a pixel: beyond, techniques that evaluate all are left out
 
 }  // namespace luciole::render
