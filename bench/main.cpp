@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <string_view>
-#include <thread>
 
+#include "machine.hpp"
 #include "suites.hpp"
 
 namespace {
@@ -47,9 +46,7 @@ void run(int argc, char** argv) {
         throw Error(ErrorKind::usage, fmt::format("expected WIDTHxHEIGHT, got \"{}\"", argv[next]));
     if (argc > ++next) options.folder = argv[next];
     Renderer renderer;
-    const char* threads = std::getenv("LP_NUM_THREADS");  // of Mesa's software driver, which else takes all
-    fmt::print("{}, {}; {} processors{}; {}x{}; {} frames, interleaved\n", renderer.device().name, renderer.device().driver,
-               std::thread::hardware_concurrency(), threads ? fmt::format(", LP_NUM_THREADS={}", threads) : "", options.extent.x, options.extent.y,
+    fmt::print("{}; {}x{}; {} frames, interleaved\n", bench::describe(bench::machineOf(renderer.device())), options.extent.x, options.extent.y,
                options.frames);
     suite.run(renderer, options);
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <numeric>
+
+#include "sample.hpp"
 
 namespace luciole::bench {
 namespace {
@@ -20,10 +23,19 @@ bool shades(std::string_view pass, const std::string& technique) {
     return pass.empty() || pass == ".surfaces" || pass == ".blended" || pass == ".color";
 }
 
+/// The milliseconds of the frame that is being added, which passes of one name share.
+void addTo(Measured& result, const PassStats& pass) {
+    auto place = std::ranges::find(result.passMs, pass.name, [](const auto& entry) { return entry.first; });
+    if (place == result.passMs.end()) place = result.passMs.insert(place, {pass.name, {}});
+    place->second.resize(result.passesMs.size() + 1);
+    place->second.back() += pass.ms.value();
+}
+
 void add(Measured& result, const Frame& frame, const std::string& technique) {
     double passes = 0, lists = 0, shading = 0;
     for (const PassStats& pass : frame.stats.passes) {
         if (pass.name.starts_with("output.")) continue;
+        addTo(result, pass);
         passes += pass.ms.value();
         if (!pass.name.starts_with("lighting.")) continue;
         if (shades(pass.name, technique))
@@ -69,17 +81,33 @@ std::vector<Contender> otherContenders() { return contenders({"quad", "volume", 
 std::vector<Contender> slowContenders() { return contenders({"brute-force", "fullscreen", "forward-loop", "forward-multipass"}); }
 Contender ideal() { return contender(std::string(kIdeal)); }
 
-std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, int frames) {
+std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, const Effort& effort,
+                              const std::function<void(double)>& progress) {
+    constexpr int kLeast = 3;
+    using Clock = std::chrono::steady_clock;
     std::vector<Measured> results;
     for (const Contender& contender : contenders) results.push_back({.name = contender.name});
-    for (int frame = 0; frame < frames; ++frame)
+    std::vector<double> seconds(contenders.size(), 0), done(contenders.size(), 0);
+    for (bool goesOn = true; goesOn;) {
+        goesOn = false;
         for (size_t i = 0; i < contenders.size(); ++i) {
+            if (done[i] == 1) continue;
+            Measured& result = results[i];
             RenderSettings settings = contenders[i].settings;
+            const auto start = Clock::now();
             renderer.render(view, settings);
-            results[i].wallMs.push_back(renderer.render(view, settings).stats.wallMs);
+            result.wallMs.push_back(renderer.render(view, settings).stats.wallMs);
             settings.measure = true;
-            add(results[i], renderer.render(view, settings), settings.lighting);
+            add(result, renderer.render(view, settings), settings.lighting);
+            seconds[i] += std::chrono::duration<double>(Clock::now() - start).count();
+            const int frames = int(result.wallMs.size());
+            const bool enough = frames >= effort.frames && (frames >= effort.most || sampleOf(result.wallMs).halfWidth() <= effort.halfWidth);
+            const bool late = seconds[i] >= effort.seconds && frames >= std::min(kLeast, effort.frames);
+            done[i] = enough || late ? 1 : std::min(0.99, std::max(double(frames) / effort.most, seconds[i] / effort.seconds));
+            goesOn |= done[i] < 1;
+            if (progress) progress(std::accumulate(done.begin(), done.end(), 0.0) / double(done.size()));
         }
+    }
     return results;
 }
 
@@ -88,10 +116,15 @@ void count(Renderer& renderer, const View& view, const std::vector<Contender>& c
     const Image reached = renderer.render(view, {.lighting = "tiled"}, {"light-count"}).aovs.at("light-count");
     for (size_t i = 0; i < contenders.size(); ++i) {
         const Frame counted = renderer.render(view, contenders[i].settings, {"evaluations", "useful-evaluations"});
-        results[i].evaluations = sumOf(counted.aovs.at("evaluations")) / pixels;
+        const Image& evaluations = counted.aovs.at("evaluations");
+        results[i].evaluations = sumOf(evaluations) / pixels;
+        results[i].covered = double(std::ranges::count_if(evaluations.data, [](float lights) { return lights > 0; }));
         const Image& useful = counted.aovs.at("useful-evaluations");
         results[i].useful = sumOf(useful) / pixels;
-        for (size_t pixel = 0; pixel < useful.data.size(); ++pixel) results[i].missed += std::max(0.0f, reached.data[pixel] - useful.data[pixel]);
+        if (contenders[i].settings.msaa != Msaa::x1) continue;
+        double missed = 0;
+        for (size_t pixel = 0; pixel < useful.data.size(); ++pixel) missed += std::max(0.0f, reached.data[pixel] - useful.data[pixel]);
+        results[i].missed = missed;
     }
 }
 
@@ -106,7 +139,7 @@ std::string frameTable(const std::vector<Measured>& results, std::optional<doubl
     for (const Measured& result : results) {
         table += fmt::format("| {} | {} | {} |", result.name, milliseconds(result.wallMs), milliseconds(result.passesMs));
         if (otherMs) table += fmt::format(" {:.2f} ({:.2f}) |", *otherMs / median(result.wallMs), *otherMs / least(result.wallMs));
-        table += fmt::format(" {:.2f} | {:.2f} | {:.0f} |\n", result.evaluations, result.useful, result.missed);
+        table += fmt::format(" {:.2f} | {:.2f} | {:.0f} |\n", result.evaluations, result.useful, result.missed.value());
     }
     return table;
 }

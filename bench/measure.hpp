@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,16 +43,29 @@ struct Measured {
     std::vector<double> listsMs;    ///< lighting passes that find lights (of `ideal` none: they are given)
     std::vector<double> shadingMs;  ///< those that evaluate them, with the light that is there without lights
     std::vector<double> lightingMs; ///< both
+    std::vector<std::pair<std::string, std::vector<double>>> passMs;  ///< by name, in the frame's order; passes of one name together
     double evaluations = 0, useful = 0;  ///< a pixel
-    double missed = 0;                   ///< pairs of a light and a pixel that it reaches, and where it was not evaluated
+    double covered = 0;                  ///< pixels at which a light was evaluated
+    std::optional<double> missed;        ///< pairs of a light and a pixel that it reaches, and where it was not evaluated; not known with
+                                         ///< several samples, of which each may show another surface
     FrameStats stats;                    ///< of the last frame
+};
+
+/// How many frames of each contender are measured.
+struct Effort {
+    int frames = 10;        ///< at least
+    int most = frames;      ///< and at most; between them, until the interval of the wall clock's median is narrow enough
+    double halfWidth = 0;   ///< of that interval, relative to the median
+    double seconds = HUGE_VAL;  ///< once its frames took so long, a contender has no more turns, but three at least
 };
 
 /// Frames of all contenders in turn, so that the machine's drift meets all alike. A change of technique makes the frame's resources anew:
 /// one frame that does not count goes before each that does.
-std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, int frames);
+/// \param progress told now and then how much is done, [0, 1]; may be empty
+std::vector<Measured> measure(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, const Effort& effort,
+                              const std::function<void(double)>& progress = {});
 
-/// Fills in `evaluations`, `useful` and `missed`. \param contenders as they were measured; takes a look at each light from each pixel
+/// Fills in `evaluations`, `useful`, `covered` and `missed`. \param contenders as they were measured; takes a look at each light from each pixel
 void count(Renderer& renderer, const View& view, const std::vector<Contender>& contenders, std::vector<Measured>& results);
 
 /// "median (least)"

@@ -34,7 +34,7 @@ std::string bytesALight(const Measured& result, const Measured& base) {
 
 std::vector<Measured> measureScene(Renderer& renderer, const Scene& scene, const Options& options) {
     renderer.setScene(scene);
-    return measure(renderer, {scene.cameras.at(0), options.extent}, listContenders(), options.frames);
+    return measure(renderer, {scene.cameras.at(0), options.extent}, listContenders(), {.frames = options.frames});
 }
 
 }  // namespace

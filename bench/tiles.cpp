@@ -19,7 +19,7 @@ std::vector<Cell> cells() {
 }
 
 void append(std::vector<Measured>& results, Renderer& renderer, const View& view, const std::vector<Contender>& contenders, int frames) {
-    std::vector<Measured> more = measure(renderer, view, contenders, frames);
+    std::vector<Measured> more = measure(renderer, view, contenders, {.frames = frames});
     count(renderer, view, contenders, more);
     results.insert(results.end(), more.begin(), more.end());
 }
@@ -52,7 +52,7 @@ void printFrames(const std::vector<Cell>& all) {
         for (const Measured& result : cell.results) {
             const bool list = std::ranges::find(lists, result.name, &Contender::name) != lists.end();
             if (list) row += fmt::format(" {} |", milliseconds(result.wallMs));
-            missed += result.missed;
+            missed += result.missed.value();
             const Measured*& place = list ? best : other;
             if (result.name != ideal().name && (!place || least(result.wallMs) < least(place->wallMs))) place = &result;
         }

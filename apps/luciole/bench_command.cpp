@@ -3,81 +3,133 @@
 #include <algorithm>
 #include <cmath>
 #include <luciole/error.hpp>
-#include <luciole/renderer.hpp>
-#include <measure.hpp>
+#include <luciole/output.hpp>
 #include <memory>
 
+#include "bench_report.hpp"
+#include "bench_run.hpp"
 #include "commands.hpp"
-#include "options.hpp"
-#include "view.hpp"
+#include "interrupt.hpp"
+#include "outputs.hpp"
 
 namespace luciole::cli {
 namespace {
 
 struct BenchOptions {
-    SceneOptions scene;
+    std::vector<std::string> scenes;
+    SceneOptions scene;  ///< but for its uri
     ViewOptions view;
     SettingOptions settings;
+    std::vector<Axis> axes;
     RendererOptions renderer = deviceDefaults();
     Console console;
-    double frames = 5;
+    bench::Effort effort{.frames = 10, .most = 40, .halfWidth = 0.03, .seconds = 20};
+    bool json = false;
+    bool csv = false;
+    std::vector<std::string> files;
 };
 
-/// The technique that is asked for alone, else the fast ones; all with the other settings that are given.
-std::vector<bench::Contender> contendersFor(const SettingOptions& options) {
-    const RenderSettings settings = resolve(options);
-    const bool named = std::ranges::any_of(options.values, [](const auto& value) { return value.first == "lighting"; });
-    if (named || settings.lighting != RenderSettings{}.lighting) return {{settings.lighting, settings}};
-    std::vector<bench::Contender> contenders;
-    for (const bench::Contender& fast : bench::fastContenders()) {
-        contenders.push_back({fast.name, settings});
-        contenders.back().settings.lighting = fast.settings.lighting;
-        contenders.back().settings.lidrPacking = fast.settings.lidrPacking;
-    }
+/// The techniques that are asked for, else the fast ones, and `ideal`; all with the other settings that are given.
+std::vector<bench::Contender> contendersFor(const SettingOptions& options, const RenderSettings& settings) {
+    const std::string bound = bench::ideal().name;
+    std::vector<bench::Contender> contenders = contendersNamed(techniquesNamed(options, settings), settings);
+    if (contenders.empty())
+        for (const bench::Contender& fast : bench::fastContenders()) {
+            contenders.push_back({fast.name, settings});
+            contenders.back().settings.lighting = fast.settings.lighting;
+            contenders.back().settings.lidrPacking = fast.settings.lidrPacking;
+        }
+    std::erase_if(contenders, [&](const bench::Contender& contender) { return contender.settings.lighting == bound; });
+    // A G-buffer of one sample is all that the bound knows.
+    if (settings.msaa == Msaa::x1) contenders.push_back(contendersNamed({bound}, settings).front());
     return contenders;
 }
 
+std::string textOf(const bench::Machine& machine, const std::vector<CellResult>& results) {
+    std::string text = fmt::format("{}\n", bench::describe(machine));
+    for (const CellResult& result : results) text += cellText(result);
+    return text + summaryText(results);
+}
+
+std::string contentFor(const std::filesystem::path& file, const bench::Machine& machine, const std::vector<CellResult>& results) {
+    if (file.extension() == ".json") return benchJson(machine, results);
+    return file.extension() == ".csv" ? benchCsv(machine, results) : textOf(machine, results);
+}
+
+/// Everything that can be refused is checked before a scene is read.
 void run(const BenchOptions& options) {
-    std::vector<bench::Contender> contenders = contendersFor(options.settings);
-    const Scene scene = loadScene(options.scene, options.console);
-    const View view = chooseView(scene, options.view);
-    Renderer renderer(options.renderer);
-    renderer.setScene(scene);
-    std::vector<bench::Measured> results;
-    {
-        const ProgressLine progress(options.console, "measuring:");
-        // A G-buffer of one sample is all that the bound knows.
-        if (contenders.front().settings.msaa == Msaa::x1 && contenders.front().name != bench::ideal().name)
-            contenders.push_back(bench::ideal());
-        results = bench::measure(renderer, view, contenders, int(options.frames));
-        bench::count(renderer, view, contenders, results);
+    const std::vector<Cell> cells = cellsOf(options.scenes, {.scene = options.scene, .view = options.view, .settings = resolve(options.settings)}, options.axes);
+    const auto contendersOf = [&](const RenderSettings& settings) { return contendersFor(options.settings, settings); };
+    for (const Cell& cell : cells) contendersOf(cell.settings);
+    for (const std::filesystem::path file : options.files) {
+        if (file.extension() != ".json" && file.extension() != ".csv" && file.extension() != ".md")
+            throw Error(ErrorKind::usage, fmt::format("{}: expected a name that ends in .json, .csv or .md", file.string()));
+        requireWritable(file);
     }
-    fmt::print("{} lights, {} triangles, {}x{}; {}, {}\n\n{}\n{}", scene.lights.size(), results.front().stats.triangles, view.extent.x,
-               view.extent.y, renderer.device().name, renderer.device().driver, bench::frameTable(results), bench::lightingTable(results));
+    Renderer renderer(options.renderer);
+    const std::vector<CellResult> results = measureCells(renderer, cells, contendersOf, options.effort, options.console);
+    const bench::Machine machine = bench::machineOf(renderer.device());
+    for (const std::filesystem::path file : options.files) {
+        const std::string content = contentFor(file, machine, results);
+        const FinishFirst guard;
+        writeFileAtomically(file, std::as_bytes(std::span(content)));
+    }
+    fmt::print("{}", options.json ? benchJson(machine, results) : options.csv ? benchCsv(machine, results) : textOf(machine, results));
+}
+
+/// A whole number in [low, high].
+void addWhole(CLI::App& command, const std::string& name, int& value, int low, int high, const std::string& help) {
+    addParsed(
+        command, name,
+        [name, &value, low, high](const std::string& text) {
+            const double number = parseNumber(name, text);
+            if (number < low || number > high || number != std::floor(number))
+                throw Error(ErrorKind::usage, fmt::format("{}: expected a whole number from {} to {}, got \"{}\"", name, low, high, text));
+            value = int(number);
+        },
+        fmt::format("{} [{}]", help, value))
+        ->type_name("NUMBER");
 }
 
 }  // namespace
 
 void addBenchCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "measure frames of a scene, technique by technique");
+    CLI::App* command = app.add_subcommand("bench", "measure frames of scenes, technique by technique");
     const auto options = std::make_shared<BenchOptions>();
-    addSceneOptions(*command, options->scene);
+    command->add_option("SCENE", options->scenes, "glTF files or built-in scenes (builtin:NAME?key=value&...)")->type_name("...")->required();
+    addSceneFileOptions(*command, options->scene);
     addViewOptions(*command, options->view);
     addSettingOptions(*command, options->settings);
+    command->add_option_function<std::vector<std::string>>(
+               "--sweep",
+               [axes = &options->axes](const std::vector<std::string>& texts) {
+                   for (const std::string& text : texts) axes->push_back(parseAxis(text));
+               },
+               "measure each value of size, a setting, or a parameter of a built-in scene; repeatable, for all combinations")
+        ->type_name("NAME=VALUE,...")
+        ->allow_extra_args(false)
+        ->group("Measuring");
+    addWhole(*command, "--frames", options->effort.frames, 1, 1000, "measured frames of each technique, at least");
+    addWhole(*command, "--most-frames", options->effort.most, 1, 1000, "and at most; between, until the median's interval is within 3 %");
     addParsed(
-        *command, "--frames",
-        [frames = &options->frames](const std::string& text) {
-            *frames = parseNumber("--frames", text);
-            if (*frames < 1 || *frames > 1000 || *frames != std::floor(*frames))
-                throw Error(ErrorKind::usage, fmt::format("--frames: expected a whole number from 1 to 1000, got \"{}\"", text));
+        *command, "--seconds",
+        [seconds = &options->effort.seconds](const std::string& text) {
+            *seconds = parseNumber("--seconds", text);
+            if (*seconds <= 0) throw Error(ErrorKind::usage, fmt::format("--seconds: expected above 0, got {}", text));
         },
-        "frames of each technique [5]")
+        fmt::format("after so long a technique has had enough frames, if there are three [{}]", options->effort.seconds))
         ->type_name("NUMBER");
+    CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
+    command->add_flag("--csv", options->csv, "print comma-separated values")->excludes(json);
+    command->add_option("-o,--output", options->files, "write the figures to .json, .csv or .md, too; repeatable")->type_name("FILE")->allow_extra_args(false);
     addDeviceOptions(*command, options->renderer);
     addConsoleOptions(*command, options->console);
     command->footer(
-        "Measures the techniques that are fast with many lights, or the one that --lighting names, and `ideal`, the bound\n"
-        "that no exact technique can be under for finding fewer lights.\n");
+        "Measures the techniques that are fast with many lights, or those that --lighting names (with commas between, or all),\n"
+        "and `ideal`, the bound that no exact technique can be under for finding fewer lights.\n"
+        "Examples:\n"
+        "  luciole bench model.glb --lighting tiled,clustered\n"
+        "  luciole bench builtin:hall --sweep lights=255,1024,4096 --sweep overlap=2,4,16 -o hall.csv\n");
     command->callback([options] { run(*options); });
 }
 

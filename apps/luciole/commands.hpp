@@ -13,5 +13,6 @@ void addDevicesCommand(CLI::App& app);
 void addSettingsCommand(CLI::App& app);
 void addTechniquesCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addGraphCommand(CLI::App& app);
 
 }  // namespace luciole::cli

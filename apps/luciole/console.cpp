@@ -9,6 +9,17 @@
 
 namespace luciole::cli {
 
+namespace {
+
+/// What is left if the rest goes on as the part before. \param seconds it took so far
+std::string timeLeft(double share, int64_t seconds) {
+    if (share <= 0) return "";
+    const auto left = int64_t(double(seconds) * (1 - share) / share);
+    return left < 120 ? fmt::format(", {} s left", left) : fmt::format(", {} min left", (left + 30) / 60);
+}
+
+}  // namespace
+
 void say(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
 
 std::string printable(std::string_view text) {
@@ -50,7 +61,7 @@ void ProgressLine::draw(const std::stop_token& stop) {
     for (pause(1s); !stop.stop_requested(); pause(200ms)) {
         const double share = share_;
         const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - start).count();
-        const std::string line = share < 0 ? fmt::format("{} {} s", label_, seconds) : fmt::format("{} {:3.0f} %", label_, 100 * share);
+        const std::string line = share < 0 ? fmt::format("{} {} s", label_, seconds) : fmt::format("{} {:3.0f} %{}", label_, 100 * share, timeLeft(share, seconds));
         width = std::max(width, line.size());
         say(fmt::format("\r{:{}}", line, width));
         std::fflush(stderr);

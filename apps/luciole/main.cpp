@@ -78,6 +78,7 @@ int run(int argc, char** argv) {
     cli::addSettingsCommand(app);
     cli::addTechniquesCommand(app);
     cli::addBenchCommand(app);
+    cli::addGraphCommand(app);
     const auto refuse = [&](std::string_view what) {
         const auto commands = app.get_subcommands();
         const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";

@@ -53,6 +53,10 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.uri, "glTF file (.gltf, .glb) or built-in scene (builtin:NAME?key=value&...)")
         ->type_name("")
         ->required();
+    addSceneFileOptions(command, options);
+}
+
+void addSceneFileOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("--rig", options.rigs, "lay the lights and materials of a rig file over the scene; repeatable")
         ->type_name("FILE")
         ->allow_extra_args(false)

@@ -21,6 +21,7 @@ struct SceneOptions {
     bool allowExternal = false;
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
+void addSceneFileOptions(CLI::App& command, SceneOptions& options);  ///< those of them that are not the scene itself
 Scene loadScene(const SceneOptions& options, const Console& console);
 
 /// One option per row of settingsTable, and --settings.

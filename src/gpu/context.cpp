@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <memory>
+#include <mutex>
 
 namespace luciole::gpu {
 namespace {
@@ -207,6 +209,19 @@ vk::raii::Device makeDevice(const vk::raii::PhysicalDevice& physical, uint32_t q
     return vk::raii::Device(physical, info);
 }
 
+/// Keeps the instance until the next comes, and the last one for good: with its last instance a driver is unloaded, and NVIDIA's (580) can't
+/// be loaded more than some 60 times in one process.
+void keepDriverLoaded(vk::raii::Context&& loader, vk::raii::Instance&& instance) {
+    struct Kept {
+        vk::raii::Context loader;
+        vk::raii::Instance instance;
+    };
+    static std::mutex mutex;
+    static std::unique_ptr<Kept>& kept = *new std::unique_ptr<Kept>;  // outlives every Context, static ones included
+    const std::scoped_lock lock(mutex);
+    kept = std::make_unique<Kept>(std::move(loader), std::move(instance));
+}
+
 }  // namespace
 
 void enableFeatures(VkPhysicalDeviceFeatures& v10, VkPhysicalDeviceVulkan12Features& v12, VkPhysicalDeviceVulkan13Features& v13) {
@@ -254,8 +269,13 @@ Context::Context(const HostDevice& host) : Context(loaderOf(host)) {
 }
 
 Context::~Context() {
-    if (!borrowed_) return;
     commandPool_ = nullptr;  // while the device is still known
+    if (!borrowed_) {
+        device_ = nullptr;  // while the instance is
+        messenger_ = nullptr;
+        keepDriverLoaded(std::move(loader_), std::move(instance_));
+        return;
+    }
     (void)device_.release();
     (void)instance_.release();
 }

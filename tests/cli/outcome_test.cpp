@@ -95,7 +95,23 @@ TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     CHECK(has(magic.err, "reference"));
     const Run ideal = failing(ErrorKind::usage, {"render", "builtin:materials", "-o", png, "--lighting", "ideal"});
     CHECK(has(ideal.err, "error: --lighting: expected one of "));  // benchmarks alone have it
-    CHECK(has(failing(ErrorKind::usage, {"bench", "builtin:materials", "--lighting", "magic"}).err, "lighting: expected one of "));
+    CHECK(has(failing(ErrorKind::usage, {"bench", "builtin:materials", "--lighting", "tiled,magic"}).err, "--lighting: expected one of "));
+    const auto refused = [](std::vector<std::string> arguments, const char* message) {
+        arguments.insert(arguments.begin(), "bench");
+        CHECK(has(failing(ErrorKind::usage, arguments).err, message));
+    };
+    CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.png"}).err, "frame.png: expected a name that ends in .svg or .dot"));
+    CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.dot", "--lighting", "reference"}).err, "the reference has no frame graph"));
+    refused({"builtin:hall", "--sweep", "lights"}, "--sweep: expected NAME=VALUE,VALUE,..., got \"lights\"");
+    refused({"builtin:hall", "--sweep", "lights=1,,2"}, "--sweep: expected NAME=VALUE,VALUE,...");
+    refused({"builtin:hall", "--sweep", "lamps=1"}, "--sweep: expected size, a setting or a parameter of builtin:hall, lights, ");
+    refused({"builtin:hall?lights=3", "--sweep", "lights=1"}, "--sweep lights: builtin:hall?lights=3 gives it already");
+    refused({"builtin:hall", "--sweep", "lights=-1"}, "--sweep lights: expected 0 to 1048576, got -1");
+    refused({"builtin:hall", "--sweep", "msaa=3"}, "--sweep msaa: expected ");
+    refused({"builtin:hall", "--sweep", "lighting=tiled"}, "--sweep: techniques are named by --lighting");
+    refused({"model.glb", "--sweep", "lights=1"}, "--sweep: expected size, a setting or, for built-in scenes, one of their parameters, got \"lights\" for model.glb");
+    refused({"builtin:hall", "--seconds", "0"}, "--seconds: expected above 0");
+    refused({"builtin:hall", "-o", "figures.txt"}, "figures.txt: expected a name that ends in .json, .csv or .md");
     CHECK(has(failing(ErrorKind::usage, {"bench", "builtin:materials", "--frames", "0"}).err, "--frames: expected a whole number from 1 to 1000"));
     CHECK(has(failing(ErrorKind::usage, {}).err, "command"));
     CHECK(has(failing(ErrorKind::usage, {"paint"}).err, "paint (see luciole --help)"));

@@ -1,6 +1,10 @@
 // What the command line says: help, lists, statistics.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
 #include <luciole/renderer.hpp>
 #include <luciole/scene_io.hpp>
 #include <luciole/settings.hpp>
@@ -33,7 +37,7 @@ nlohmann::json statistics(std::vector<std::string> more) {
 
 TEST_CASE("cli: help goes to standard output and shows the commands, examples, built-in scenes and exit codes") {
     const std::string help = outputOf({"--help"});
-    for (const char* word : {"render", "info", "scene", "devices", "settings", "techniques", "bench"}) {
+    for (const char* word : {"render", "info", "scene", "devices", "settings", "techniques", "bench", "graph"}) {
         CHECK(has(help, std::string("\n  ") + word + " "));
         CHECK(has(outputOf({word, "--help"}), std::string("luciole ") + word));
     }
@@ -68,18 +72,86 @@ TEST_CASE("cli: settings and techniques are listed by name") {
 TEST_CASE("cli: bench measures the technique that is named beside the bound, with the settings that are given") {
     const std::string bench = outputOf({"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "1",
                                         "--lighting", "clustered", "--tile-size", "8"});
+    CHECK(has(bench, "## builtin:hall?lights=20&triangles=2000, 24x18"));
     CHECK(has(bench, "20 lights, "));
-    CHECK(has(bench, ", 24x18; "));
     CHECK(has(bench, "\n| clustered | "));
-    CHECK(has(bench, "\n| ideal | "));
+    CHECK(has(bench, "\n| ideal     | "));
     CHECK_FALSE(has(bench, "brute-force"));
-    CHECK(has(bench, " | 0 |\n"));  // no light missed
+    CHECK(has(bench, "Fastest: clustered.\n"));
+    CHECK(has(bench, listDevices().at(0).name));
+    CHECK(has(bench, ", commit "));
 }
 
 TEST_CASE("cli: bench without a name measures the techniques with lists of lights") {
     const std::string bench = outputOf({"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "1"});
     for (const char* name : {"tiled", "tiled-points", "clustered", "clustered-forward", "ideal"})
-        CHECK(has(bench, std::string("\n| ") + name + " | "));
+        CHECK(has(bench, std::string("\n| ") + name + " "));
+}
+
+TEST_CASE("cli: bench measures all combinations of a sweep, and tells them in JSON and CSV alike") {
+    const TemporaryFolder folder;
+    const std::string csv = (folder.path() / "b.csv").string(), markdown = (folder.path() / "b.md").string();
+    const auto json = nlohmann::json::parse(outputOf({"bench", "builtin:hall?triangles=2000", "builtin:materials", "--sweep", "size=24x18,8x8", "--sweep",
+                                                      "msaa=1,4", "--lighting", "tiled,clustered-forward", "--frames", "2", "--most-frames", "2", "--json", "-o",
+                                                      csv, "-o", markdown}));
+    CHECK(json["schema"] == 1);
+    CHECK(json["machine"]["device"] == listDevices().at(0).name);
+    CHECK(json["machine"]["threads"] > 0);
+    CHECK_FALSE(json["commit"].get<std::string>().empty());
+    REQUIRE(json["cells"].size() == 8);
+    size_t rows = 0;
+    for (const auto& cell : json["cells"]) {
+        const bool samples = cell["at"]["msaa"] == "4";
+        CHECK(cell["settings"]["msaa"] == cell["at"]["msaa"]);
+        CHECK(cell["at"]["size"] == fmt::format("{}x{}", cell["width"].get<int>(), cell["height"].get<int>()));
+        CHECK(cell["results"].size() == (samples ? 1u : 3u));  // `ideal` and deferred techniques have one sample
+        CHECK(cell["refused"].size() == (samples ? 1u : 0u));
+        rows += cell["results"].size();
+        for (const auto& result : cell["results"]) {
+            const auto& wall = result["wallMs"];
+            CHECK(result["frames"] == 2);
+            CHECK(wall["least"] <= wall["low"]);
+            CHECK(wall["low"] <= wall["median"]);
+            CHECK(wall["median"] <= wall["high"]);
+            CHECK(wall["high"] <= wall["p95"]);
+            CHECK(result["missedPairs"] == (samples ? nlohmann::json() : nlohmann::json(0.0)));
+            CHECK(result["usefulEvaluations"] <= result["evaluations"]);
+            double passes = 0;
+            for (const auto& pass : result["passes"]) passes += pass["ms"]["median"].get<double>();
+            CHECK(passes == doctest::Approx(result["passesMs"]["median"].get<double>()));
+        }
+    }
+    const std::string table = textOf(csv);
+    CHECK(size_t(std::ranges::count(table, '\n')) == rows + 1);
+    CHECK(has(table, "at_size,at_msaa,technique,frames,median_ms"));
+    CHECK(has(textOf(markdown), "## All frames: medians, ms"));
+}
+
+TEST_CASE("cli: bench measures all techniques that can do with the settings, and says why others can't") {
+    const auto json = nlohmann::json::parse(
+        outputOf({"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "1", "--lighting", "all", "--msaa", "4", "--json"}));
+    const auto& cell = json["cells"][0];
+    CHECK(cell["results"].size() + cell["refused"].size() + 2 == lightingTechniques().size());  // auto and reference are none of them
+    for (const auto& refused : cell["refused"]) CHECK(has(refused["why"].get<std::string>(), "msaa: expected 1"));
+    CHECK(cell["refused"].size() > 0);
+    CHECK(cell["results"].size() > 2);
+}
+
+TEST_CASE("cli: graph draws the passes with their times, and what they read and write") {
+    const TemporaryFolder folder;
+    const std::string dot = folder / "frame.dot";
+    outputOf({"graph", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--lighting", "clustered", "-o", dot});
+    const std::string text = textOf(dot);
+    CHECK(text.starts_with("digraph frame {"));
+    for (const char* part : {"geometry.gbuffer\\n", " ms\"", "lighting.clustered.fill", "light-lists.entries", " MiB\"", "24x18"}) CHECK(has(text, part));
+    if (std::system("dot -V 2>/dev/null") != 0) {
+        MESSAGE("skipped: Graphviz's program dot is not here");
+        return;
+    }
+    const std::string svg = folder / "frame.svg";
+    outputOf({"graph", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--lighting", "clustered", "-o", svg});
+    CHECK(has(textOf(svg), "<svg"));
+    CHECK(has(textOf(svg), "lighting.clustered.fill"));
 }
 
 TEST_CASE("cli: devices are listed with what they are, as JSON too") {

@@ -25,7 +25,10 @@ double triangles(Counts c, Settings) { return c.triangles; }
 double edges(Counts c, Settings) { return std::sqrt(c.triangles * c.fragments); }
 double blended(Counts c, Settings) { return c.blended; }
 double blendedLights(Counts c, Settings) { return c.blended * c.lights; }
-double blendedEdgeLights(Counts c, Settings) { return std::sqrt(c.triangles * c.blended) * c.lights; }
+double blendedEdges(Counts c, Settings) { return std::sqrt(c.triangles * c.blended); }
+double blendedEdgeLights(Counts c, Settings s) { return blendedEdges(c, s) * c.lights; }
+double blendedFrame(Counts c, Settings) { return c.blended > 0 ? 1 : 0; }
+double blendedTriangles(Counts c, Settings) { return c.blended > 0 ? c.triangles : 0; }
 double edgeLights(Counts c, Settings s) { return edges(c, s) * c.lights + blendedEdgeLights(c, s); }
 double allLights(Counts c, Settings) { return c.covered * c.lights; }
 double lights(Counts c, Settings) { return c.lights; }
@@ -41,7 +44,10 @@ double inTile(Counts c, Settings s) { return c.inTile + everywhere(c, s); }
 double inCluster(Counts c, Settings s) { return c.inCluster + everywhere(c, s); }
 /// Clusters reach from the nearest to the farthest surface that blends, so that each finds some share of what lies before the opaque one.
 double blendedInCluster(Counts c, Settings) { return c.blendedBehindFront + c.blended * c.unbounded; }
-double edgeInCluster(Counts c, Settings s) { return c.covered > 0 ? edges(c, s) * inCluster(c, s) / c.covered : 0; }
+double blendedEdgeInCluster(Counts c, Settings s) { return c.blended > 0 ? blendedEdges(c, s) * blendedInCluster(c, s) / c.blended : 0; }
+double edgeInCluster(Counts c, Settings s) {
+    return (c.covered > 0 ? edges(c, s) * inCluster(c, s) / c.covered : 0) + blendedEdgeInCluster(c, s);
+}
 
 /// Whether light-indexed rendering indexes all lights before a surface, not only those that reach it.
 bool indexesBefore(Counts c, Settings s) {
@@ -151,8 +157,12 @@ const std::vector<CostModel>& costModels() {
                                   {"clustered.covered", covered},
                                   {"clustered.light", lights},
                                   {"clustered.evaluation", inCluster},
+                                  {"clustered.blended-frame", blendedFrame},
+                                  {"clustered.blended-triangle", blendedTriangles},
                                   {"clustered.blended", blended},
-                                  {"clustered.blended-light", blendedInCluster}}),
+                                  {"clustered.blended-edge", blendedEdges},
+                                  {"clustered.blended-light", blendedInCluster},
+                                  {"clustered.blended-edge-light", blendedEdgeInCluster}}),
         forward("clustered-forward", {{"clustered-forward.frame", one},
                                       {"clustered-forward.pixel", pixels},
                                       {"clustered-forward.light", lights},

@@ -15,7 +15,7 @@
 /// chosen. Needs no device. docs/techniques/auto.md
 namespace luciole::render {
 
-inline constexpr uint32_t kCostModelVersion = 1;  ///< raised with any change of what a coefficient means
+inline constexpr uint32_t kCostModelVersion = 2;  ///< raised with any change of what a coefficient means
 
 /// A count that a technique's time depends on, and the name of what one of it costs. Techniques that share a name share the coefficient.
 struct CostTerm {

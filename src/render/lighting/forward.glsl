@@ -8,6 +8,7 @@
 #include "render/geometry/surface_shading.glsl"
 #include "render/lighting/forward.shared.h"
 #include "render/shaders/illuminate.glsl"
+#include "render/shaders/samples.glsl"
 
 layout(constant_id = 6) const uint kFirst = 1u;    // ambience and emission are added, too
 layout(constant_id = 7) const uint kBlended = 0u;  // alpha says how much of the surface is there
@@ -38,7 +39,7 @@ int visibleSample() {
     int best = 0;
     float bestBehind = 2.0;
     for (uint covered = uint(gl_SampleMaskIn[0]); covered != 0u; covered &= covered - 1u) {
-        const int i = findLSB(covered);
+        const int i = firstSample(covered);
         const vec4 clip = view.clipFromView * vec4(interpolateAtSample(positionView, i), 1);
         const float stored = texelFetch(depthSamples, ivec2(gl_FragCoord.xy), i).x;
         const float behind = max(stored * (1.0 - 4e-6) - clip.z / clip.w, 0.0);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "render/lighting/light_tiles.glsl"
+#include "render/shaders/samples.glsl"
 
 // The depths of the surfaces that blend, by tile: they are in no depth buffer. Variant MULTISAMPLED: at each sample that is covered, as
 // their shader computes them, and a little more, as that may round otherwise.
@@ -20,7 +21,7 @@ void add(float farthest, float nearest) {
 void main() {
 #ifdef MULTISAMPLED
     for (uint covered = uint(gl_SampleMaskIn[0]); covered != 0u; covered &= covered - 1u) {
-        const float depth = depthOf(interpolateAtSample(positionView, findLSB(covered)));
+        const float depth = depthOf(interpolateAtSample(positionView, firstSample(covered)));
         add(depth * (1.0 - 4e-6), depth * (1.0 + 4e-6));
     }
 #else
