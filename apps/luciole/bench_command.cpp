@@ -24,6 +24,7 @@ struct BenchOptions {
     RendererOptions renderer = deviceDefaults();
     Console console;
     bench::Effort effort{.frames = 10, .most = 40, .halfWidth = 0.03, .seconds = 20};
+    std::string reproduction;
     bool json = false;
     bool csv = false;
     std::vector<std::string> files;
@@ -56,8 +57,28 @@ std::string contentFor(const std::filesystem::path& file, const bench::Machine& 
     return file.extension() == ".csv" ? benchCsv(machine, results) : textOf(machine, results);
 }
 
+void reproduce(const BenchOptions& options) {
+    const auto& all = bench::reproductions();
+    const auto found = std::ranges::find(all, options.reproduction, &bench::Reproduction::name);
+    if (found == all.end()) {
+        std::string names;
+        for (const bench::Reproduction& one : all) names += fmt::format("{}{}", names.empty() ? "" : ", ", one.name);
+        throw Error(ErrorKind::usage, fmt::format("--reproduce: expected one of {}, got \"{}\"", names, options.reproduction));
+    }
+    Renderer renderer(options.renderer);
+    std::vector<bench::Ratio> ratios;
+    {
+        ProgressLine progress(options.console, "measuring:");
+        ratios = found->run(renderer, options.view.size, options.effort, [&](double share) { progress.show(share); });
+    }
+    const bench::Machine machine = bench::machineOf(renderer.device());
+    fmt::print("{}", options.json ? reproductionJson(machine, *found, ratios) : reproductionText(machine, *found, ratios));
+}
+
 /// Everything that can be refused is checked before a scene is read.
 void run(const BenchOptions& options) {
+    if (!options.reproduction.empty()) return reproduce(options);
+    if (options.scenes.empty()) throw Error(ErrorKind::usage, "SCENE is required, or --reproduce (see luciole bench --help)");
     const std::vector<Cell> cells = cellsOf(options.scenes, {.scene = options.scene, .view = options.view, .settings = resolve(options.settings)}, options.axes);
     const auto contendersOf = [&](const RenderSettings& settings) { return contendersFor(options.settings, settings); };
     for (const Cell& cell : cells) contendersOf(cell.settings);
@@ -96,7 +117,7 @@ void addWhole(CLI::App& command, const std::string& name, int& value, int low, i
 void addBenchCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bench", "measure frames of scenes, technique by technique");
     const auto options = std::make_shared<BenchOptions>();
-    command->add_option("SCENE", options->scenes, "glTF files or built-in scenes (builtin:NAME?key=value&...)")->type_name("...")->required();
+    command->add_option("SCENE", options->scenes, "glTF files or built-in scenes (builtin:NAME?key=value&...)")->type_name("...");
     addSceneFileOptions(*command, options->scene);
     addViewOptions(*command, options->view);
     addSettingOptions(*command, options->settings);
@@ -119,6 +140,9 @@ void addBenchCommand(CLI::App& app) {
         },
         fmt::format("after so long a technique has had enough frames, if there are three [{}]", options->effort.seconds))
         ->type_name("NUMBER");
+    command->add_option("--reproduce", options->reproduction, "measure a published comparison again, instead of SCENE: trebilco, olsson, mjp")
+        ->type_name("NAME")
+        ->excludes("SCENE");
     CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
     command->add_flag("--csv", options->csv, "print comma-separated values")->excludes(json);
     command->add_option("-o,--output", options->files, "write the figures to .json, .csv or .md, too; repeatable")->type_name("FILE")->allow_extra_args(false);

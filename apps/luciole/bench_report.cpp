@@ -158,6 +158,22 @@ Json jsonOf(const CellResult& result) {
     return json;
 }
 
+/// What each of our documents begins with.
+Json documentOf(const bench::Machine& machine) {
+    return {{"schema", kSchema},
+            {"machine",
+             {{"device", machine.device},
+              {"driver", machine.driver},
+              {"processor", machine.processor},
+              {"threads", machine.threads},
+              {"driverThreads", machine.driverThreads},
+              {"system", machine.system}}},
+            {"version", machine.version},
+            {"commit", machine.commit}};
+}
+
+std::string textOf(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }  // names from outside need not be UTF-8
+
 /// Quoted where a comma, a quote or a line end would be taken for the format's own (RFC 4180).
 std::string csvField(std::string text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -168,19 +184,32 @@ std::string csvField(std::string text) {
 }  // namespace
 
 std::string benchJson(const bench::Machine& machine, const std::vector<CellResult>& results) {
-    Json json{{"schema", kSchema},
-              {"machine",
-               {{"device", machine.device},
-                {"driver", machine.driver},
-                {"processor", machine.processor},
-                {"threads", machine.threads},
-                {"driverThreads", machine.driverThreads},
-                {"system", machine.system}}},
-              {"version", machine.version},
-              {"commit", machine.commit},
-              {"cells", Json::array()}};
+    Json json = documentOf(machine);
+    json["cells"] = Json::array();
     for (const CellResult& result : results) json["cells"].push_back(jsonOf(result));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // names from outside need not be UTF-8
+    return textOf(json);
+}
+
+std::string reproductionText(const bench::Machine& machine, const bench::Reproduction& reproduction, const std::vector<bench::Ratio>& ratios) {
+    std::vector<std::vector<std::string>> rows{{"times of", "published", "measured", "95 % interval"}};
+    for (const bench::Ratio& ratio : ratios)
+        rows.push_back({ratio.what, ratio.published, ratio.whyNot.empty() ? fmt::format("{:.2f}", ratio.measured) : "-",
+                        ratio.whyNot.empty() ? fmt::format("{:.2f} - {:.2f}", ratio.low, ratio.high) : ratio.whyNot});
+    return fmt::format("{}\n\n{}.\nOther here: {}.\n\n{}", bench::describe(machine), reproduction.source, reproduction.differs, tableOf(rows));
+}
+
+std::string reproductionJson(const bench::Machine& machine, const bench::Reproduction& reproduction, const std::vector<bench::Ratio>& ratios) {
+    Json json = documentOf(machine);
+    json["reproduction"] = {{"name", reproduction.name}, {"source", reproduction.source}, {"differs", reproduction.differs}, {"ratios", Json::array()}};
+    for (const bench::Ratio& ratio : ratios) {
+        Json row{{"what", ratio.what}, {"published", ratio.published}};
+        if (ratio.whyNot.empty())
+            row.update({{"measured", ratio.measured}, {"low", ratio.low}, {"high", ratio.high}});
+        else
+            row["whyNot"] = ratio.whyNot;
+        json["reproduction"]["ratios"].push_back(row);
+    }
+    return textOf(json);
 }
 
 std::string benchCsv(const bench::Machine& machine, const std::vector<CellResult>& results) {

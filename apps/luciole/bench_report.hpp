@@ -1,5 +1,6 @@
 #pragma once
 #include <machine.hpp>
+#include <reproduce.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ std::string summaryText(const std::vector<CellResult>& results);
 
 /// All of it for programs. docs/command-line.md says what each member is.
 std::string benchJson(const bench::Machine& machine, const std::vector<CellResult>& results);
+
+/// What somebody published beside what was measured: for people, and for programs.
+std::string reproductionText(const bench::Machine& machine, const bench::Reproduction& reproduction, const std::vector<bench::Ratio>& ratios);
+std::string reproductionJson(const bench::Machine& machine, const bench::Reproduction& reproduction, const std::vector<bench::Ratio>& ratios);
 
 /// A row for each technique in each cell, machine included, under a row of names.
 std::string benchCsv(const bench::Machine& machine, const std::vector<CellResult>& results);

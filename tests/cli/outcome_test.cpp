@@ -102,6 +102,8 @@ TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     };
     CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.png"}).err, "frame.png: expected a name that ends in .svg or .dot"));
     CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.dot", "--lighting", "reference"}).err, "the reference has no frame graph"));
+    refused({}, "SCENE is required, or --reproduce");
+    refused({"--reproduce", "folklore"}, "--reproduce: expected one of trebilco, olsson, mjp, got \"folklore\"");
     refused({"builtin:hall", "--sweep", "lights"}, "--sweep: expected NAME=VALUE,VALUE,..., got \"lights\"");
     refused({"builtin:hall", "--sweep", "lights=1,,2"}, "--sweep: expected NAME=VALUE,VALUE,...");
     refused({"builtin:hall", "--sweep", "lamps=1"}, "--sweep: expected size, a setting or a parameter of builtin:hall, lights, ");

@@ -137,6 +137,24 @@ TEST_CASE("cli: bench measures all techniques that can do with the settings, and
     CHECK(cell["results"].size() > 2);
 }
 
+TEST_CASE("cli: bench sets what was published beside what it measures") {
+    const auto json = nlohmann::json::parse(outputOf({"bench", "--reproduce", "trebilco", "--size", "24x18", "--frames", "2", "--most-frames", "2", "--json"}));
+    const auto& ratios = json["reproduction"]["ratios"];
+    REQUIRE(ratios.size() == 3);
+    const char* published[] = {"6.8", "5.2", "3.1"};
+    for (size_t i = 0; i < 3; ++i) {
+        CHECK(ratios[i]["published"] == published[i]);
+        CHECK(ratios[i]["low"] <= ratios[i]["measured"]);
+        CHECK(ratios[i]["measured"] <= ratios[i]["high"]);
+        CHECK(ratios[i]["low"] > 0);
+    }
+    for (const char* name : {"olsson", "mjp"}) {
+        const std::string text = outputOf({"bench", "--reproduce", name, "--size", "16x12", "--frames", "1"});
+        CHECK(has(text, listDevices().at(0).name));
+        CHECK(has(text, "| published |"));
+    }
+}
+
 TEST_CASE("cli: graph draws the passes with their times, and what they read and write") {
     const TemporaryFolder folder;
     const std::string dot = folder / "frame.dot";
