@@ -6,6 +6,8 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkg-config libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslc
     libembree-dev libopenexr-dev libspng-dev libturbojpeg0-dev libglm-dev nlohmann-json3-dev libcli11-dev libfmt-dev
     doctest-dev python3-jsonschema)
+# Node.js bundles the page of `luciole compare`. Other distributors' nodejs brings npm along and refuses Debian's.
+command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
 if [[ "${1:-}" == test ]]; then packages+=(clang); fi
 
 is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]; }
@@ -36,10 +38,22 @@ clang_has_runtime() {
         clang++ -fsanitize=fuzzer,address -x c++ - -o /dev/null 2>/dev/null
 }
 
+# What apps/report is bundled and tested with, as its lock file says. Nothing is downloaded later, while building.
+install_node_packages() {
+    local folder installed
+    folder="$(dirname "${BASH_SOURCE[0]}")/../apps/report"
+    installed="$folder/node_modules/.package-lock.json"
+    if [[ -e "$installed" && ! "$folder/package-lock.json" -nt "$installed" ]]; then return; fi
+    echo "packages: npm ci in apps/report"
+    npm ci --prefix "$folder" --no-audit --no-fund || echo "packages: that failed; all but luciole compare will work" >&2
+}
+
 distribution=unknown
 if [[ -r /etc/os-release ]]; then distribution="$(. /etc/os-release && echo "${ID:-}-${VERSION_ID:-}")"; fi
 case "$distribution" in
     debian-12 | ubuntu-24.04)
+        # The browser that tests/report opens. Ubuntu's package is an empty stand-in for a snap; the test is skipped there.
+        if [[ "${1:-}" == test && "$distribution" == debian-12 ]]; then packages+=(chromium); fi
         install_missing "${packages[@]}"
         if [[ "${1:-}" == test ]] && ! clang_has_runtime; then
             install_missing "libclang-rt-$(clang++ -dumpversion | cut -d. -f1)-dev"
@@ -50,3 +64,4 @@ case "$distribution" in
         echo "packages: counterparts are installed: ${packages[*]}"
         ;;
 esac
+if command -v npm >/dev/null; then install_node_packages; fi
