@@ -14,10 +14,10 @@
 #include "output/display.hpp"
 #include "output/fingerprint.shared.h"
 #include "output/request.hpp"
+#include "parallel/parallel_rows.hpp"
 #include "reference/bounce.hpp"
 #include "reference/camera_rays.hpp"
 #include "reference/lights.hpp"
-#include "reference/parallel_rows.hpp"
 #include "reference/surface.hpp"
 #include "scene/visibility.hpp"
 

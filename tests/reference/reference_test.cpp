@@ -9,7 +9,7 @@
 #include <luciole/reference.hpp>
 
 #include "output/fingerprint.shared.h"
-#include "reference/parallel_rows.hpp"
+#include "parallel/parallel_rows.hpp"
 #include "scene_building.hpp"
 #include "volume_building.hpp"
 
@@ -381,10 +381,10 @@ TEST_CASE("reference: unknown layers and impossible sizes are usage errors that 
 
 TEST_CASE("parallel rows: each row is done once, and what a row throws reaches the caller") {
     std::vector<std::atomic<int>> times(1000);
-    CHECK(reference::forEachRow(1000, [&](uint32_t row) { ++times[row]; }, {}));
+    CHECK(forEachRow(1000, [&](uint32_t row) { ++times[row]; }, {}));
     CHECK(std::all_of(times.begin(), times.end(), [](const auto& n) { return n == 1; }));
     const auto failing = [](uint32_t row) {
         if (row == 500) throw std::runtime_error("row 500");
     };
-    CHECK_THROWS_WITH(reference::forEachRow(1000, failing, {}), "row 500");
+    CHECK_THROWS_WITH(forEachRow(1000, failing, {}), "row 500");
 }

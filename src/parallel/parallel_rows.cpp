@@ -1,4 +1,4 @@
-#include "reference/parallel_rows.hpp"
+#include "parallel/parallel_rows.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace luciole::reference {
+namespace luciole {
 namespace {
 
 /// The rows that are left, handed out one at a time.
@@ -78,4 +78,4 @@ bool forEachRow(uint32_t rows, const std::function<void(uint32_t)>& work, const 
     return !stopped;
 }
 
-}  // namespace luciole::reference
+}  // namespace luciole
