@@ -13,14 +13,6 @@ namespace luciole {
 namespace {
 
 constexpr uint32_t kTickHeight = 3;
-constexpr std::string_view kNoneLabel = "none";
-
-/// The least of 1, 2, 5, 10, 20, ... that is no less than `least`: distances between ticks that people like.
-uint64_t tickStep(double least) {
-    for (uint64_t decade = 1;; decade *= 10)
-        for (const uint64_t factor : {1, 2, 5})
-            if (double(factor * decade) >= least) return factor * decade;
-}
 
 }  // namespace
 
@@ -40,6 +32,12 @@ vec3 viridis(float t) {
 
 uint32_t legendScale(uint32_t mapWidth) { return std::clamp(mapWidth / 320, 1u, 8u); }
 
+double tickStep(double least) {
+    for (double decade = std::pow(10, std::floor(std::log10(least)));; decade *= 10)
+        for (const double factor : {1, 2, 5})
+            if (factor * decade >= least) return factor * decade;
+}
+
 float largest(const Image& counts) { return *std::max_element(counts.data.begin(), counts.data.end()); }
 
 void drawMap(Image& page, uint32_t x, const Image& counts, const Image& covered, float top) {
@@ -50,31 +48,33 @@ void drawMap(Image& page, uint32_t x, const Image& counts, const Image& covered,
         }
 }
 
-void drawScale(Image& page, uint32_t left, uint32_t right, uint32_t mapHeight, uint32_t scale, uint64_t top) {
+void drawScale(Image& page, uint32_t left, uint32_t right, uint32_t mapHeight, uint32_t scale, const MapScale& colors) {
     const auto y = [&](uint32_t offset) { return mapHeight + offset * scale; };
     const uint32_t margin = kMargin * scale;
-    const uint32_t noneWidth = textWidth(kNoneLabel, scale) - scale;  // without the last gap
-    fillRectangle(page, left + margin, y(kBarY), noneWidth, kBarHeight * scale, kNone);
-    drawText(page, left + margin, y(kNumbersY), scale, kNoneLabel, kInk);
+    const uint32_t greyWidth = textWidth(colors.grey, scale) - scale;  // without the last gap
+    fillRectangle(page, left + margin, y(kBarY), greyWidth, kBarHeight * scale, kNone);
+    drawText(page, left + margin, y(kNumbersY), scale, colors.grey, kInk);
 
-    left += noneWidth + 3 * margin;
+    left += greyWidth + 3 * margin;
     const uint32_t width = right - margin - left;
     for (uint32_t x = 0; x < width; ++x)
         fillRectangle(page, left + x, y(kBarY), 1, kBarHeight * scale, viridis(float(x) / float(width - 1)));
 
-    const auto drawTick = [&](uint64_t count) {
-        const std::string label = fmt::format("{}", count);
-        const uint32_t x = left + uint32_t(std::lround(double(width - scale) * double(count) / double(top)));
+    const double top = colors.top;
+    const auto labelOf = [&](double value) { return fmt::format("{:.{}f}", value, colors.decimals); };
+    const auto drawTick = [&](double value) {
+        const std::string label = labelOf(value);
+        const uint32_t x = left + uint32_t(std::lround((width - scale) * value / top));
         fillRectangle(page, x, y(kBarY + kBarHeight), scale, kTickHeight * scale, kInk);
         // Centred below the tick, but never beyond the ends of the scale.
         const uint32_t labelWidth = textWidth(label, scale) - scale;
         const uint32_t centred = x + scale / 2 - std::min(x, labelWidth / 2);
         drawText(page, std::clamp(centred, left, left + width - labelWidth), y(kNumbersY), scale, label, kInk);
     };
-    const uint32_t room = textWidth(fmt::format("{}", top), scale) + 4 * margin;  // of the longest number
-    const uint64_t step = tickStep(double(top) * room / width);
-    for (uint64_t count = 0; count == 0 || (double(top) - double(count)) * width >= double(top) * room; count += step)
-        drawTick(count);
+    const double room = textWidth(labelOf(top), scale) + 4 * margin;  // of the longest number
+    const double step = tickStep(std::max(top * room / width, std::pow(10, -colors.decimals)));
+    drawTick(0);
+    for (int i = 1; (top - i * step) * width >= top * room; ++i) drawTick(i * step);
     drawTick(top);
 }
 

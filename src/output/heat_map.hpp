@@ -5,7 +5,7 @@
 #include <luciole/image.hpp>
 #include <luciole/math.hpp>
 
-/// What pictures of counts have in common: maps at the top of a page, and below them a legend.
+/// What pictures of counts and errors have in common: maps at the top of a page, and below them a legend.
 namespace luciole {
 
 vec3 rgb8(uint32_t hex);
@@ -28,12 +28,22 @@ inline constexpr uint32_t kLegendHeight = 57;
 /// the font
 uint32_t legendScale(uint32_t mapWidth);
 
+/// The least of ..., 0.5, 1, 2, 5, 10, 20, ... that is no less than `least`, > 0: numbers that people like on a scale.
+double tickStep(double least);
+
 float largest(const Image& counts);
 
-/// Counts as colours from 0 to `top`, grey where `covered` is not above 0. \param x of the map's left edge
+/// Counts or errors as colours from 0 to `top`, grey where `covered` is not above 0. \param x of the map's left edge
 void drawMap(Image& page, uint32_t x, const Image& counts, const Image& covered, float top);
 
-/// The grey of pixels without a count, then the scale from 0 to `top`, with numbers, between x = `left` and `right` of the page.
-void drawScale(Image& page, uint32_t left, uint32_t right, uint32_t mapHeight, uint32_t scale, uint64_t top);
+/// What the colours of a map stand for.
+struct MapScale {
+    double top;                      ///< the last colour; the first is 0
+    int decimals = 0;                ///< of the numbers at the scale; counts have none
+    std::string_view grey = "none";  ///< what grey pixels are
+};
+
+/// The grey, then the colours with numbers, between x = `left` and `right` of the page.
+void drawScale(Image& page, uint32_t left, uint32_t right, uint32_t mapHeight, uint32_t scale, const MapScale& colors);
 
 }  // namespace luciole

@@ -75,7 +75,7 @@ Image lightListMap(const Image& lengths, const Image& slices, uint32_t tileSize)
         drawText(page, x, lengths.height + kTitleY * scale, scale, titles[i], kInk);
         drawText(page, x, lengths.height + kStatisticsY * scale, scale, lines[i], kInk);
     }
-    drawScale(page, 0, column, lengths.height, scale, uint64_t(top));
+    drawScale(page, 0, column, lengths.height, scale, {.top = top});
     drawSwatches(page, right, page.width, lengths.height, scale, found);
     return page;
 }

@@ -65,7 +65,7 @@ Image overlapHeatMap(const Image& evaluations, const Image& useful) {
         drawText(page, x + margin, evaluations.height + kTitleY * scale, scale, titles[i], kInk);
         drawText(page, x + margin, evaluations.height + kStatisticsY * scale, scale, lines[i], kInk);
     }
-    drawScale(page, 0, page.width, evaluations.height, scale, uint64_t(top));
+    drawScale(page, 0, page.width, evaluations.height, scale, {.top = top});
     return page;
 }
 
