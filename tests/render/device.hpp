@@ -53,7 +53,7 @@ inline constexpr double kSteepest = 50;
 /// Checks that a technique's picture is the yardstick's but for rounding. \param lights of the scene
 inline void checkAlike(const render::LightingTechnique& technique, const Image& image, const Image& yardstick,
                        const std::vector<bool>& mask, size_t lights) {
-    const Difference radiance = difference(image, yardstick, &mask);
+    const ErrorSummary radiance = difference(image, yardstick, &mask);
     CHECK(radiance.share > 0.9);
     if (technique.info.name == "light-prepass") {
         // What else it rounds, a test of its own shows.

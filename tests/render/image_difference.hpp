@@ -4,18 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <luciole/metrics.hpp>
 #include <luciole/renderer.hpp>
 
 namespace luciole::test {
-
-/// Relative differences |a - b| / (b + floor) over pixels and channels, with `floor` a hundredth of b's mean, so that dark
-/// pixels count by what an eye would see.
-struct Difference {
-    double mean = 0;
-    double p999 = 0;     ///< 99.9 % of the compared pixels are at or below it (worst channel of each)
-    double max = 0;
-    double share = 0;    ///< of all pixels that were compared
-};
 
 /// Pixels whose eight neighbours show the same object and material at a depth that changes smoothly: where a ray and a
 /// rasterizer must see the same surface. \param alike a layer that must not change among them either, or null
@@ -37,31 +29,9 @@ inline std::vector<bool> interior(const Frame& frame, const Image* alike = nullp
     return inside;
 }
 
-inline Difference difference(const Image& a, const Image& b, const std::vector<bool>* mask = nullptr) {
-    double sum = 0;
-    for (const float value : b.data) sum += value;
-    const double floor = 0.01 * sum / double(b.data.size()) + 1e-9;
-    std::vector<double> worst;
-    Difference result;
-    const size_t pixels = size_t(b.width) * b.height;
-    for (size_t i = 0; i < pixels; ++i) {
-        if (mask && !(*mask)[i]) continue;
-        double pixel = 0;
-        for (uint32_t c = 0; c < b.channels; ++c) {
-            const double expected = b.data[i * b.channels + c];
-            const double off = std::abs(double(a.data[i * b.channels + c]) - expected) / (std::abs(expected) + floor);
-            pixel = std::isfinite(off) ? std::max(pixel, off) : INFINITY;
-        }
-        result.mean += pixel;
-        worst.push_back(pixel);
-    }
-    if (worst.empty()) return result;
-    std::ranges::sort(worst);
-    result.mean /= double(worst.size());
-    result.p999 = worst[std::min(worst.size() - 1, size_t(0.999 * double(worst.size())))];
-    result.max = worst.back();
-    result.share = double(worst.size()) / double(pixels);
-    return result;
+/// Relative errors of `image` where `mask` says so, or everywhere.
+inline ErrorSummary difference(const Image& image, const Image& yardstick, const std::vector<bool>* mask = nullptr) {
+    return summaryOf(relativeError(yardstick, image), mask);
 }
 
 }  // namespace luciole::test

@@ -428,7 +428,7 @@ TEST_CASE("light lists: of 20,000 lights the techniques give the reference's pic
     for (const char* technique : kListed) {
         INFO(std::string(technique));
         const Frame frame = renderer->render(kRoomView, {.lighting = technique});
-        const Difference radiance = difference(frame.radiance, reference.radiance, &mask);
+        const ErrorSummary radiance = difference(frame.radiance, reference.radiance, &mask);
         CHECK(radiance.share > 0.5);
         // Normals turn by 2.2e-5 in a G-buffer, half a step of 2 / 65535 in each coordinate, and light by that times the tangent of its angle.
         CHECK(radiance.max <= 1e-4);
@@ -460,7 +460,7 @@ uint32_t checkAgainstYardsticks(ValidatedRenderer& renderer, const Scene& scene,
         CHECK(wrong == 0);
         // Sums of n positive terms in any order differ by at most 2 n units of roundoff; those of lights that do not reach are zero.
         const double terms = *std::ranges::max_element(useful) + 1;
-        const Difference radiance = difference(frame.radiance, yardstick.radiance);
+        const ErrorSummary radiance = difference(frame.radiance, yardstick.radiance);
         CHECK(radiance.max <= std::min(1e-4, 2 * terms * std::exp2(-24)));
         pages = std::max(pages, frame.stats.lightLists->pages);
     }

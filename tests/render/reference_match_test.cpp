@@ -17,7 +17,7 @@ namespace {
 
 const std::vector<std::string> kMaskLayers{"id", "material", "depth"};
 
-/// Bounds on the relative difference to the reference (image_difference.hpp), over pixels away from edges.
+/// Bounds on the relative error (relativeError in metrics.hpp) over pixels away from edges.
 struct Tolerance {
     double mean, p999;
 };
@@ -52,7 +52,7 @@ void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test, s
             if (technique.forward && layout != GBufferLayout::compact) continue;  // they have no layout
             INFO("technique: " << technique.info.name);
             const RenderSettings settings{.lighting = std::string(technique.info.name), .gbuffer = layout};
-            const Difference radiance = difference(renderer->render(test.view, settings).radiance, reference.radiance, &mask);
+            const ErrorSummary radiance = difference(renderer->render(test.view, settings).radiance, reference.radiance, &mask);
             INFO("mean " << radiance.mean << ", 99.9 % " << radiance.p999 << ", max " << radiance.max << ", compared " << radiance.share);
             CHECK(radiance.share > 0.03);
             CHECK(radiance.mean < tolerance.mean);

@@ -69,7 +69,7 @@ TEST_CASE("light-prepass: equals brute force on a G-buffer that rounds normals a
         const Frame frame = renderer->render(test.view, {.lighting = "light-prepass"});
         // A rounding per light as for any technique, and those of a colour's square, its reflectance and its product.
         const double bound = 2.0 * double(test.scene.lights.size() + 8) * std::exp2(-24);
-        const Difference radiance = difference(frame.radiance, yardstick.radiance);
+        const ErrorSummary radiance = difference(frame.radiance, yardstick.radiance);
         INFO("p999 " << radiance.p999 << " max " << radiance.max);
         CHECK(radiance.max <= bound);
     }
@@ -91,7 +91,7 @@ TEST_CASE("lighting: forward techniques light surfaces that blend, and four samp
                 INFO("technique: " << technique.info.name << ", msaa " << int(msaa));
                 const Frame frame = renderer->render(test.view, {.lighting = std::string(technique.info.name), .msaa = msaa});
                 // Not all pixels: surfaces that coincide are added by some.
-                const Difference radiance = difference(frame.radiance, yardsticks.of(technique).radiance);
+                const ErrorSummary radiance = difference(frame.radiance, yardsticks.of(technique).radiance);
                 const double roundings = 2.0 * double(test.scene.lights.size() + 1) * std::exp2(-24);
                 const double bound = technique.info.name == "light-prepass" ? kSteepest * kNormalTurn : roundings;
                 CHECK(radiance.p999 <= bound);
