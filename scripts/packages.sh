@@ -4,11 +4,11 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build pkg-config libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslc
-    libembree-dev libopenexr-dev libspng-dev libturbojpeg0-dev libglm-dev nlohmann-json3-dev libcli11-dev libfmt-dev
+    libembree-dev libopenexr-dev libspng-dev libturbojpeg0-dev libglm-dev nlohmann-json3-dev libcli11-dev libfmt-dev zlib1g-dev
     doctest-dev python3-jsonschema)
 # Node.js bundles the page of `luciole compare`. Other distributors' nodejs brings npm along and refuses Debian's.
 command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
-if [[ "${1:-}" == test ]]; then packages+=(clang); fi
+if [[ "${1:-}" == test ]]; then packages+=(clang python3-skimage openimageio-tools graphviz); fi
 
 is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]; }
 

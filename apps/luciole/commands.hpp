@@ -14,5 +14,7 @@ void addSettingsCommand(CLI::App& app);
 void addTechniquesCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addGraphCommand(CLI::App& app);
+/// \param exitCode set to 1 if the pictures differ; must outlive `app`
+void addCompareCommand(CLI::App& app, int& exitCode);
 
 }  // namespace luciole::cli

@@ -52,7 +52,7 @@ std::string helpFooter() {
                                 p.high, p.fallback);
     }
     return text +
-           "\nExit codes: 0 done, 2 wrong usage, 3 faulty scene or rig, 4 file can't be read or written,\n"
+           "\nExit codes: 0 done, 1 compare: the pictures differ, 2 wrong usage, 3 faulty scene or rig, 4 file can't be read or written,\n"
            "  5 no usable device, 6 device lost or out of memory, 8 a limit is exceeded, 130 interrupted.\n"
            "docs/command-line.md says more.\n";
 }
@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
     app.set_version_flag("--version", "luciole " LUCIOLE_VERSION);
     app.require_subcommand(0, 1);  // none is refused below: CLI11 would not name a misspelt one
     app.footer(helpFooter);
+    int exitCode = 0;
     cli::addRenderCommand(app);
     cli::addInfoCommand(app);
     cli::addAdviseCommand(app);
@@ -79,6 +80,7 @@ int run(int argc, char** argv) {
     cli::addTechniquesCommand(app);
     cli::addBenchCommand(app);
     cli::addGraphCommand(app);
+    cli::addCompareCommand(app, exitCode);
     const auto refuse = [&](std::string_view what) {
         const auto commands = app.get_subcommands();
         const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
@@ -94,7 +96,7 @@ int run(int argc, char** argv) {
     if (std::fflush(stdout) != 0)
         throw Error(ErrorKind::io,
                     fmt::format("standard output: can't write: {}", std::generic_category().message(errno)));
-    return 0;
+    return exitCode;
 }
 
 }  // namespace

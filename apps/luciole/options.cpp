@@ -49,10 +49,14 @@ std::string readText(const std::string& file) {
 
 }  // namespace
 
-void addSceneOptions(CLI::App& command, SceneOptions& options) {
+void addScene(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.uri, "glTF file (.gltf, .glb) or built-in scene (builtin:NAME?key=value&...)")
         ->type_name("")
         ->required();
+}
+
+void addSceneOptions(CLI::App& command, SceneOptions& options) {
+    addScene(command, options);
     addSceneFileOptions(command, options);
 }
 

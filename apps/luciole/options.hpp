@@ -21,7 +21,8 @@ struct SceneOptions {
     bool allowExternal = false;
 };
 void addSceneOptions(CLI::App& command, SceneOptions& options);
-void addSceneFileOptions(CLI::App& command, SceneOptions& options);  ///< those of them that are not the scene itself
+void addScene(CLI::App& command, SceneOptions& options);             ///< of them the scene itself
+void addSceneFileOptions(CLI::App& command, SceneOptions& options);  ///< and all others
 Scene loadScene(const SceneOptions& options, const Console& console);
 
 /// One option per row of settingsTable, and --settings.

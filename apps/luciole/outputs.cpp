@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool hasExtension(const fs::path& file, std::string_view wanted) {
-    const std::string extension = file.extension().string();
-    return std::equal(extension.begin(), extension.end(), wanted.begin(), wanted.end(),
-                      [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
-}
-
 bool isExr(const fs::path& file) { return hasExtension(file, ".exr"); }
 
 void checkAovs(const OutputOptions& options) {
@@ -134,6 +128,12 @@ void writeOutputs(const OutputOptions& options, const Frame& frame) {
         const FinishFirst guard;
         writeFileAtomically(options.graphFile, std::as_bytes(std::span(frame.graph)));
     }
+}
+
+bool hasExtension(const fs::path& file, std::string_view wanted) {
+    const std::string extension = file.extension().string();
+    return std::equal(extension.begin(), extension.end(), wanted.begin(), wanted.end(),
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
 void requireWritable(const fs::path& file) {

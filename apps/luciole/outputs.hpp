@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <luciole/output.hpp>
@@ -31,6 +32,9 @@ void checkOutputs(const OutputOptions& options);
 std::vector<std::string> neededAovs(const OutputOptions& options);
 
 void writeOutputs(const OutputOptions& options, const Frame& frame);
+
+/// \param wanted with its dot, lower case; `file` may have capitals
+bool hasExtension(const std::filesystem::path& file, std::string_view wanted);
 
 /// \throws Error(io) if `file` can't be made or replaced
 void requireWritable(const std::filesystem::path& file);

@@ -34,7 +34,12 @@ std::string cacheFolder() {
 }  // namespace
 
 void addSceneAndViewOptions(CLI::App& command, FrameRequest& request) {
-    addSceneOptions(command, request.scene);
+    addScene(command, request.scene);
+    addFrameOptions(command, request);
+}
+
+void addFrameOptions(CLI::App& command, FrameRequest& request) {
+    addSceneFileOptions(command, request.scene);
     addDefaultLightOption(command, request);
     addViewOptions(command, request.view);
     addSettingOptions(command, request.settings);

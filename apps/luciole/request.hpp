@@ -14,6 +14,7 @@ struct FrameRequest {
     Console console;
 };
 void addSceneAndViewOptions(CLI::App& command, FrameRequest& request);
+void addFrameOptions(CLI::App& command, FrameRequest& request);  ///< those of them that are not the scene itself
 
 /// The scene, with a light if it needs one, and the view of it.
 struct SceneAndView {

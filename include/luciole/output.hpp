@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <luciole/image.hpp>
 
@@ -17,6 +18,9 @@ void writeFileAtomically(const std::filesystem::path& file, std::span<const std:
 /// \param image values in [0, 1] (clamped), 1, 3 or 4 channels; \param bits 8 or 16, rounded to nearest
 void writePng(const std::filesystem::path& file, const Image& image, int bits = 8);
 
+/// The same in memory.
+std::vector<std::byte> pngOf(const Image& image, int bits = 8);
+
 enum class ExrType { half, float32 };
 /// \param layers layer "" holds R, G, B; layer NAME holds NAME.R, NAME.G, NAME.B or NAME.Y by channel count.
 ///        All of one size. Layers of distances, indices and counts (depth, material, id, light-count, evaluations,
@@ -25,6 +29,11 @@ void writeExr(const std::filesystem::path& file, const std::map<std::string, Ima
 
 Image readPng(const std::filesystem::path& file);                         ///< [0, 1], 3 or 4 channels
 std::map<std::string, Image> readExr(const std::filesystem::path& file);  ///< as writeExr takes them
+
+/// Counts or errors as colours, one for each pixel, without a legend: from 0 to `top` on one scale, dark grey where nothing was counted.
+/// \param values 1 channel; not finite counts as 0. \param top > 0
+/// \return sRGB-encoded, [0, 1], 3 channels. \throws Error(usage) for other images
+Image heatMap(const Image& values, float top);
 
 /// How much work a technique did for one picture, and how much of it was of use.
 struct OverlapCounts {

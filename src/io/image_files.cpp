@@ -33,10 +33,12 @@ std::vector<std::byte> quantiseAndEncode(const Image& image) {
 
 }  // namespace
 
-void writePng(const std::filesystem::path& file, const Image& image, int bits) {
+std::vector<std::byte> pngOf(const Image& image, int bits) {
     if (bits != 8 && bits != 16) throw Error(ErrorKind::usage, fmt::format("PNG: expected 8 or 16 bits, got {}", bits));
-    writeFileAtomically(file, bits == 8 ? quantiseAndEncode<uint8_t>(image) : quantiseAndEncode<uint16_t>(image));
+    return bits == 8 ? quantiseAndEncode<uint8_t>(image) : quantiseAndEncode<uint16_t>(image);
 }
+
+void writePng(const std::filesystem::path& file, const Image& image, int bits) { writeFileAtomically(file, pngOf(image, bits)); }
 
 Image readPng(const std::filesystem::path& file) {
     const std::vector<std::byte> bytes = readFile(file, kMaxPngBytes);

@@ -78,4 +78,15 @@ void drawScale(Image& page, uint32_t left, uint32_t right, uint32_t mapHeight, u
     drawTick(top);
 }
 
+Image heatMap(const Image& values, float top) {
+    if (values.channels != 1 || values.data.empty() || !(top > 0))
+        throw Error(ErrorKind::usage, fmt::format("heat map: expected an image of 1 channel and a scale, got {} x {} x {} up to {}", values.width, values.height, values.channels, top));
+    Image finite = values;
+    for (float& value : finite.data)
+        if (!std::isfinite(value)) value = 0;
+    Image page(values.width, values.height, 3);
+    drawMap(page, 0, finite, finite, top);
+    return page;
+}
+
 }  // namespace luciole
