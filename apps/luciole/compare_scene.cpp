@@ -25,6 +25,7 @@ std::vector<bench::Contender> contendersFor(const SettingOptions& options, const
 
 void check(const SceneComparison& comparison, std::string_view page) {
     const std::filesystem::path file = comparison.file;
+    if (file.empty()) throw Error(ErrorKind::usage, "compare: -o FILE.html is required for a scene");
     if (page.find(kMarker) == std::string_view::npos)
         throw Error(ErrorKind::usage, "compare: this build has no report: it was made without Node.js, or before scripts/packages.sh had installed what the page is made of");
     if (comparison.axes.size() > 1) throw Error(ErrorKind::usage, "--sweep: expected one at most, as the report has one chart for it");

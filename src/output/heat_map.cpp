@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <luciole/error.hpp>
+#include <luciole/output.hpp>
 #include <string>
 
 #include "output/drawing.hpp"

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <report_template.hpp>
 #include <luciole/error.hpp>
 
 #include "cli/run.hpp"
@@ -102,6 +103,12 @@ TEST_CASE("cli: unknown techniques, commands and built-in scenes end with 2") {
     };
     CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.png"}).err, "frame.png: expected a name that ends in .svg or .dot"));
     CHECK(has(failing(ErrorKind::usage, {"graph", "builtin:hall", "-o", "frame.dot", "--lighting", "reference"}).err, "the reference has no frame graph"));
+    CHECK(has(failing(ErrorKind::usage, {"compare", "builtin:hall", "-o", "report.html", "--psnr", "40"}).err, "--psnr: not for a scene"));
+    CHECK(has(failing(ErrorKind::usage, {"compare", "a.exr", "b.exr", "--lighting", "tiled"}).err, "--lighting: not for two pictures"));
+    if (!reportTemplate().empty()) {
+        CHECK(has(failing(ErrorKind::usage, {"compare", "builtin:hall"}).err, "compare: -o FILE.html is required for a scene"));
+        CHECK(has(failing(ErrorKind::usage, {"compare", "builtin:hall", "-o", "report.pdf"}).err, "report.pdf: expected a name that ends in .html"));
+    }
     refused({}, "SCENE is required, or --reproduce");
     refused({"--reproduce", "folklore"}, "--reproduce: expected one of trebilco, olsson, mjp, got \"folklore\"");
     refused({"builtin:hall", "--sweep", "lights"}, "--sweep: expected NAME=VALUE,VALUE,..., got \"lights\"");

@@ -9,6 +9,7 @@
 #include <luciole/scene_io.hpp>
 #include <luciole/settings.hpp>
 #include <nlohmann/json.hpp>
+#include <report_template.hpp>
 
 #include "cli/run.hpp"
 #include "io/temporary_folder.hpp"
@@ -153,6 +154,36 @@ TEST_CASE("cli: bench sets what was published beside what it measures") {
         CHECK(has(text, listDevices().at(0).name));
         CHECK(has(text, " published | "));
     }
+}
+
+TEST_CASE("cli: compare writes one page about all techniques on a scene") {
+    if (reportTemplate().empty()) {
+        MESSAGE("skipped: built without Node.js, or without the packages of apps/report");
+        return;
+    }
+    const TemporaryFolder folder;
+    const std::string file = folder / "report.html";
+    outputOf({"compare", "builtin:hall?triangles=2000", "--size", "24x18", "--sweep", "lights=3,20", "-o", file});
+    const std::string page = textOf(file);
+    CHECK(page.starts_with("<!DOCTYPE html>"));
+    CHECK_FALSE(has(page, "@LUCIOLE_REPORT@"));
+    const std::string_view begin = "id=\"report-data\">";
+    const size_t from = page.find(begin) + begin.size();
+    const auto json = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    CHECK(json["title"] == "builtin:hall?triangles=2000");
+    CHECK(json["techniques"].size() + json["left"].size() + 2 == lightingTechniques().size());  // auto and reference are none of them
+    REQUIRE(json["images"].size() == json["techniques"].size() + 1);
+    CHECK(json["images"][0]["name"] == "reference");
+    for (const auto& technique : json["techniques"]) {
+        CAPTURE(technique["name"].get<std::string>());
+        CHECK(technique["metrics"]["meanError"].get<double>() < 5);
+        CHECK(technique["metrics"]["ssim"].get<double>() > 0.98);
+        CHECK(technique["wallMs"]["low"] <= technique["wallMs"]["high"]);
+        CHECK(technique["passes"].size() > 2);
+        CHECK(has(technique["overlap"].get<std::string>(), "data:image/png;base64,"));
+    }
+    CHECK(json["sweep"]["values"] == nlohmann::json({"3", "20"}));
+    CHECK(json["sweep"]["series"].size() == json["techniques"].size());
 }
 
 TEST_CASE("cli: graph draws the passes with their times, and what they read and write") {
