@@ -23,12 +23,16 @@ bool shades(std::string_view pass, const std::string& technique) {
     return pass.empty() || pass == ".surfaces" || pass == ".blended" || pass == ".color";
 }
 
-/// The milliseconds of the frame that is being added, which passes of one name share.
 void addTo(Measured& result, const PassStats& pass) {
-    auto place = std::ranges::find(result.passMs, pass.name, [](const auto& entry) { return entry.first; });
-    if (place == result.passMs.end()) place = result.passMs.insert(place, {pass.name, {}});
-    place->second.resize(result.passesMs.size() + 1);
-    place->second.back() += pass.ms.value();
+    auto place = std::ranges::find(result.passes, pass.name, &MeasuredPass::name);
+    if (place == result.passes.end()) place = result.passes.insert(place, {pass.name});
+    if (const size_t frame = result.passesMs.size(); place->ms.size() <= frame) {
+        place->ms.resize(frame + 1);
+        place->bytes = place->draws = 0;
+    }
+    place->ms.back() += pass.ms.value();
+    place->bytes += pass.bytes;
+    place->draws += pass.draws;
 }
 
 void add(Measured& result, const Frame& frame, const std::string& technique) {

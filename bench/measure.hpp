@@ -35,6 +35,13 @@ std::vector<Contender> slowContenders();
 /// The bound that lighting times are compared with: exact lists of each pixel's lights, and only their evaluation counted.
 Contender ideal();
 
+/// Passes of one name together.
+struct MeasuredPass {
+    std::string name;
+    std::vector<double> ms;  ///< one entry a frame
+    uint64_t bytes = 0, draws = 0;  ///< PassStats, of the last frame
+};
+
 /// What the frames of one contender cost and did. Of milliseconds one entry a frame.
 struct Measured {
     std::string name;
@@ -43,7 +50,7 @@ struct Measured {
     std::vector<double> listsMs;    ///< lighting passes that find lights (of `ideal` none: they are given)
     std::vector<double> shadingMs;  ///< those that evaluate them, with the light that is there without lights
     std::vector<double> lightingMs; ///< both
-    std::vector<std::pair<std::string, std::vector<double>>> passMs;  ///< by name, in the frame's order; passes of one name together
+    std::vector<MeasuredPass> passes;  ///< in the frame's order
     double evaluations = 0, useful = 0;  ///< a pixel
     double covered = 0;                  ///< pixels at which a light was evaluated
     std::optional<double> missed;        ///< pairs of a light and a pixel that it reaches, and where it was not evaluated; not known with

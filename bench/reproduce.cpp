@@ -22,9 +22,9 @@ std::vector<Measured> measureHall(Renderer& renderer, uint32_t lights, double ov
 /// Sums of a frame's passes, but for those that only find out what a packing lost, which nobody else does.
 Sample frameOf(const Measured& measured) {
     std::vector<double> sums(measured.passesMs.size(), 0);
-    for (const auto& [name, ms] : measured.passMs)
-        if (!name.ends_with(".lost"))
-            for (size_t i = 0; i < ms.size(); ++i) sums[i] += ms[i];
+    for (const MeasuredPass& pass : measured.passes)
+        if (!pass.name.ends_with(".lost"))
+            for (size_t i = 0; i < pass.ms.size(); ++i) sums[i] += pass.ms[i];
     return sampleOf(sums);
 }
 

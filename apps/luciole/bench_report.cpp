@@ -131,12 +131,8 @@ Json jsonOf(const bench::Measured& result) {
               {"draws", drawsOf(result.stats)},
               {"peakBytes", result.stats.peakBytes},
               {"passes", Json::array()}};
-    for (const auto& [name, ms] : result.passMs) {
-        uint64_t bytes = 0, draws = 0;
-        for (const PassStats& pass : result.stats.passes)
-            if (pass.name == name) bytes += pass.bytes, draws += pass.draws;
-        json["passes"].push_back({{"name", name}, {"ms", jsonOf(bench::sampleOf(ms))}, {"bytes", bytes}, {"draws", draws}});
-    }
+    for (const bench::MeasuredPass& pass : result.passes)
+        json["passes"].push_back({{"name", pass.name}, {"ms", jsonOf(bench::sampleOf(pass.ms))}, {"bytes", pass.bytes}, {"draws", pass.draws}});
     return json;
 }
 

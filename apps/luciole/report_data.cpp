@@ -95,12 +95,8 @@ Json techniqueOf(const Compared& compared, const Frame& reference, const Image& 
               {"peakBytes", measured.stats.peakBytes},
               {"evaluations", measured.evaluations},
               {"useful", measured.useful}};
-    for (const auto& [name, ms] : measured.passMs) {
-        uint64_t bytes = 0, draws = 0;
-        for (const PassStats& pass : measured.stats.passes)
-            if (pass.name == name) bytes += pass.bytes, draws += pass.draws;
-        json["passes"].push_back({{"name", name}, {"ms", bench::median(ms)}, {"bytes", bytes}, {"draws", draws}});
-    }
+    for (const bench::MeasuredPass& pass : measured.passes)
+        json["passes"].push_back({{"name", pass.name}, {"ms", bench::median(pass.ms)}, {"bytes", pass.bytes}, {"draws", pass.draws}});
     return json;
 }
 
