@@ -35,6 +35,14 @@ void addTo(Measured& result, const PassStats& pass) {
     place->draws += pass.draws;
 }
 
+void addAblation(Measured& result, const std::vector<PassStats>& passes) {
+    for (MeasuredPass& pass : result.passes) {
+        double& sum = pass.ablatedMs.emplace_back(0);
+        for (const PassStats& cut : passes)
+            if (cut.name == pass.name) sum += cut.ms.value();
+    }
+}
+
 void add(Measured& result, const Frame& frame, const std::string& technique) {
     double passes = 0, lists = 0, shading = 0;
     for (const PassStats& pass : frame.stats.passes) {
@@ -103,6 +111,7 @@ std::vector<Measured> measure(Renderer& renderer, const View& view, const std::v
             result.wallMs.push_back(renderer.render(view, settings).stats.wallMs);
             settings.measure = true;
             add(result, renderer.render(view, settings), settings.lighting);
+            if (int(result.wallMs.size()) <= effort.ablations) addAblation(result, renderer.ablate(view, settings));
             seconds[i] += std::chrono::duration<double>(Clock::now() - start).count();
             const int frames = int(result.wallMs.size());
             const bool enough = frames >= effort.frames && (frames >= effort.most || sampleOf(result.wallMs).halfWidth() <= effort.halfWidth);

@@ -39,6 +39,7 @@ Contender ideal();
 struct MeasuredPass {
     std::string name;
     std::vector<double> ms;  ///< one entry a frame
+    std::vector<double> ablatedMs;  ///< Renderer::ablate, one entry for each of Effort::ablations
     uint64_t bytes = 0, draws = 0;  ///< PassStats, of the last frame
 };
 
@@ -63,6 +64,7 @@ struct Effort {
     int frames = 10;        ///< at least
     int most = frames;      ///< and at most; between them, until the interval of the wall clock's median is narrow enough
     double halfWidth = 0;   ///< of that interval, relative to the median
+    int ablations = 0;      ///< frames that are cut off behind each of their passes as well, of the first ones
     double seconds = HUGE_VAL;  ///< once its frames took so long, a contender has no more turns, but three at least
 };
 

@@ -15,6 +15,8 @@
 namespace luciole::cli {
 namespace {
 
+constexpr int kAblations = 5;  ///< each is a frame for every pass, so a few must do
+
 struct BenchOptions {
     std::vector<std::string> scenes;
     SceneOptions scene;  ///< but for its uri
@@ -132,6 +134,9 @@ void addBenchCommand(CLI::App& app) {
         ->group("Measuring");
     addWhole(*command, "--frames", options->effort.frames, 1, 1000, "measured frames of each technique, at least");
     addWhole(*command, "--most-frames", options->effort.most, 1, 1000, "and at most; between, until the median's interval is within 3 %");
+    command->add_flag_callback("--passes", [effort = &options->effort] { effort->ablations = kAblations; },
+                               "what each pass costs: by timestamps, and by cutting frames off behind it")
+        ->group("Measuring");
     addParsed(
         *command, "--seconds",
         [seconds = &options->effort.seconds](const std::string& text) {

@@ -76,12 +76,22 @@ std::string lightingRows(const std::vector<bench::Measured>& results) {
     return tableOf(rows);
 }
 
+std::string passRows(const std::vector<bench::Measured>& results) {
+    std::vector<std::vector<std::string>> rows{{"technique: pass", "by timestamps, ms", "by ablation, ms", "draws", "MiB"}};
+    for (const bench::Measured& result : results)
+        for (const bench::MeasuredPass& pass : result.passes)
+            rows.push_back({fmt::format("{}: {}", result.name, pass.name), fmt::format("{:.2f}", bench::median(pass.ms)), fmt::format("{:.2f}", bench::median(pass.ablatedMs)),
+                            fmt::format("{}", pass.draws), fmt::format("{:.1f}", mebibytes(pass.bytes))});
+    return tableOf(rows);
+}
+
 }  // namespace
 
 std::string cellText(const CellResult& result) {
     std::string text = fmt::format("\n## {}\n\n{} lights, {} triangles\n\n{}\n{}\n", headingOf(result), result.lights, result.triangles,
                                    framesTable(result.results), lightingRows(result.results));
     if (const auto all = timed(result.results); !all.empty()) text += bench::verdict(all) + "\n";
+    if (!result.results.empty() && !result.results[0].passes[0].ablatedMs.empty()) text += "\n" + passRows(result.results);
     for (const Refused& refused : result.refused) text += fmt::format("Not measured: {}: {}\n", refused.technique, refused.why);
     return text;
 }
@@ -131,8 +141,11 @@ Json jsonOf(const bench::Measured& result) {
               {"draws", drawsOf(result.stats)},
               {"peakBytes", result.stats.peakBytes},
               {"passes", Json::array()}};
-    for (const bench::MeasuredPass& pass : result.passes)
-        json["passes"].push_back({{"name", pass.name}, {"ms", jsonOf(bench::sampleOf(pass.ms))}, {"bytes", pass.bytes}, {"draws", pass.draws}});
+    for (const bench::MeasuredPass& pass : result.passes) {
+        Json row{{"name", pass.name}, {"ms", jsonOf(bench::sampleOf(pass.ms))}, {"bytes", pass.bytes}, {"draws", pass.draws}};
+        if (!pass.ablatedMs.empty()) row["ablatedMs"] = jsonOf(bench::sampleOf(pass.ablatedMs));
+        json["passes"].push_back(row);
+    }
     return json;
 }
 

@@ -159,6 +159,13 @@ public:
     /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs = {});
 
+    /// What each pass adds to the frame: the wall clock of the frame cut off behind it, less that of the frame cut off before it. Timestamps keep
+    /// passes apart to time them; this leaves them to overlap as they do. Passes behind the cut are left out as well, because they would
+    /// read what nobody wrote.
+    /// \return a row for each pass, in order, with `ms` for that; noise may make it negative
+    /// \throws as render
+    std::vector<PassStats> ablate(const View& view, const RenderSettings& settings);
+
     /// What lighting `auto` would choose for such a frame, and what is known of every technique; settings.lighting does not matter.
     /// Renders a small picture of the scene, and, where the device is not known yet, others (docs/techniques/auto.md).
     /// \throws as render

@@ -200,8 +200,7 @@ void Executor::recordPass(const vk::raii::CommandBuffer& commands, uint32_t inde
     drawCounts_.push_back(context.counts());
 }
 
-void Executor::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, bool measure) {
-    const auto passes = uint32_t(compiled_.passes.size());
+void Executor::recordFirst(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, uint32_t passes, bool measure) {
     drawCounts_.clear();
     if (measure) {
         commands.resetQueryPool(*queries_, 0, passes + 1);
@@ -215,22 +214,28 @@ void Executor::record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet
         if (context_.labels()) commands.endDebugUtilsLabelEXT();
         if (measure) timestamp(commands, i + 1);
     }
-    recordBarriers(commands, compiled_.finalBarriers);
+    if (passes == passCount()) recordBarriers(commands, compiled_.finalBarriers);
 }
 
-void Executor::run(vk::DescriptorSet frameSet, bool measure) {
-    const bool timed = measure && context_.timestampMask() != 0;
+void Executor::submit(vk::DescriptorSet frameSet, uint32_t passes, bool measure) {
     const auto start = std::chrono::steady_clock::now();
     const auto& commands = commandBuffers_.front();
     commands.reset();  // an exception in the last frame may have left it half recorded
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-    record(commands, frameSet, timed);
+    recordFirst(commands, frameSet, passes, measure);
     commands.end();
     recordMs_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     context_.submitAndWait(commands);
     passMs_.clear();
+}
+
+void Executor::runFirst(vk::DescriptorSet frameSet, uint32_t passes) { submit(frameSet, passes, false); }
+
+void Executor::run(vk::DescriptorSet frameSet, bool measure) {
+    const bool timed = measure && context_.timestampMask() != 0;
+    submit(frameSet, passCount(), timed);
     if (!timed) return;
-    const auto count = uint32_t(compiled_.passes.size()) + 1;
+    const uint32_t count = passCount() + 1;
     const auto [result, ticks] = queries_.getResults<uint64_t>(0, count, count * sizeof(uint64_t), sizeof(uint64_t),
                                                                vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     for (uint32_t i = 0; i + 1 < count; ++i)

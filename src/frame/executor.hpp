@@ -23,8 +23,13 @@ public:
     ///        that the driver overlaps or merges are wrong. Without effect on a queue that has no timestamps
     void run(vk::DescriptorSet frameSet, bool measure);
 
+    /// Runs the first passes of the frame and waits. What the others would have written is undefined then, outputs included.
+    /// \param passes at most passCount()
+    void runFirst(vk::DescriptorSet frameSet, uint32_t passes);
+    uint32_t passCount() const { return uint32_t(compiled_.passes.size()); }
+
     /// Records one frame for somebody else to submit, outside of any render pass. What was recorded last must have finished.
-    void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, bool measure = false);
+    void record(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet) { recordFirst(commands, frameSet, passCount(), false); }
 
     /// What the frame left in a buffer declared as an output. Host-visible.
     template <typename T>
@@ -41,6 +46,8 @@ public:
 private:
     void createResources();
     void createPassSets();
+    void submit(vk::DescriptorSet frameSet, uint32_t passes, bool measure);
+    void recordFirst(const vk::raii::CommandBuffer& commands, vk::DescriptorSet frameSet, uint32_t passes, bool measure);
     void recordPass(const vk::raii::CommandBuffer& commands, uint32_t index, vk::DescriptorSet frameSet);
     void recordBarriers(const vk::raii::CommandBuffer& commands, const std::vector<Barrier>& barriers) const;
     void timestamp(const vk::raii::CommandBuffer& commands, uint32_t query) const;

@@ -409,6 +409,22 @@ struct Renderer::Impl {
         return result;
     }
 
+    std::vector<PassStats> ablate(const View& view, RenderSettings settings) {
+        settings.measure = false;
+        const Frame whole = renderChosen(view, settings, {});  // warm from here on
+        std::vector<PassStats> passes = whole.stats.passes;
+        using Clock = std::chrono::steady_clock;
+        double before = 0;
+        for (uint32_t cut = 0; cut <= passes.size(); ++cut) {
+            const auto start = Clock::now();
+            frame->executor.runFirst(gpuScene->frameSet(), cut);
+            const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+            if (cut > 0) passes[cut - 1].ms = ms - before;
+            before = ms;
+        }
+        return passes;
+    }
+
     Frame render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
         render::checkSettings(context, settings);
         const bool counts = std::ranges::any_of(aovs, render::isCount);
@@ -471,6 +487,10 @@ void Renderer::setLights(std::span<const Light> lights) {
 
 Frame Renderer::render(const View& view, const RenderSettings& settings, const std::vector<std::string>& aovs) {
     return translatingVulkanErrors([&] { return impl_->renderChosen(view, settings, aovs); });
+}
+
+std::vector<PassStats> Renderer::ablate(const View& view, const RenderSettings& settings) {
+    return translatingVulkanErrors([&] { return impl_->ablate(view, settings); });
 }
 
 LightingAdvice Renderer::advise(const View& view, const RenderSettings& settings) {

@@ -61,3 +61,16 @@ export async function ready(page, left, right) {
 
 /// Waits until what was asked for is on the screen.
 export const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/// Where an element lies once the page, which may have been scrolled by what the test did before, has come to rest.
+export async function boxAtRest(page, selector) {
+    const element = page.locator(selector);
+    await element.scrollIntoViewIfNeeded();
+    for (let last, same = 0; ; ) {
+        await drawn(page);
+        const box = await element.boundingBox();
+        same = last && box.x === last.x && box.y === last.y && box.width === last.width ? same + 1 : 0;
+        if (same === 10) return box;
+        last = box;
+    }
+}

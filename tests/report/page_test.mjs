@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { mkdir, readFile } from 'node:fs/promises';
 import test, { after, before } from 'node:test';
-import { drawn, ready, startBrowser, stopBrowser, withPage } from './browser.mjs';
+import { boxAtRest, drawn, ready, startBrowser, stopBrowser, withPage } from './browser.mjs';
 import { requirePackage } from './packages.mjs';
 import { syntheticReport, view } from './synthetic.mjs';
 
@@ -60,13 +60,13 @@ test('the split follows the slider, the keyboard and the hand, and a row brings 
     await page.keyboard.press('Home');
     await drawn(page);
     assertBlue(await colorAt(page, 0.1, 0.3), blueOf.clustered);
-    const box = await page.locator('#canvas').boundingBox();
+    const box = await boxAtRest(page, '#canvas');
     await page.mouse.move(box.x + 0.2 * box.width, box.y + 20);
     await page.mouse.down();
     await page.mouse.move(box.x + 0.9 * box.width, box.y + 30, { steps: 3 });
     await page.mouse.up();
+    await page.waitForFunction(() => document.getElementById('split').value === '90');
     await drawn(page);
-    assert.equal(await page.inputValue('#split'), '90');
     assertBlue(await colorAt(page, 0.8, 0.3), blueOf.reference);
 }));
 
@@ -96,9 +96,8 @@ test('holding the button or F swaps the sides, for as long as it is held', () =>
 test('the wheel zooms to single pixels, and the pointer reads their radiance', () => withPage(report, {}, async (page) => {
     await page.selectOption('#right-layer', { label: 'tiled' });
     await ready(page, 'reference', 'tiled');
-    await page.locator('#canvas').scrollIntoViewIfNeeded();
+    const box = await boxAtRest(page, '#canvas');
     await page.waitForTimeout(400); // the wheel goes on scrolling the page for a moment
-    const box = await page.locator('#canvas').boundingBox();
     const scale = box.width / view.width;
     await page.mouse.move(box.x + 64.5 * scale, box.y + 96.5 * scale);
     await page.mouse.wheel(0, -1500);
