@@ -2,62 +2,76 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <array>
 
 #include "suites.hpp"
 
 namespace luciole::bench {
 namespace {
 
-/// Milliseconds by pass, one entry per frame.
-using Samples = std::map<std::string, std::vector<double>>;
+constexpr std::array<uint32_t, 3> kLights{16, 64, 255};
+constexpr std::array kTechniques{"brute-force", "fullscreen"};
 
-template <typename Reduce>
-double sumOf(const Samples& samples, const Reduce& reduce) {
-    double sum = 0;
-    for (const auto& [name, values] : samples) sum += reduce(values);
-    return sum;
-}
+/// What the techniques that look at every light cost with so many lights.
+struct Column {
+    double pairs = 0;  ///< of a light and a pixel that shows a surface
+    std::vector<Measured> results;
+};
 
-void printPasses(const Samples& samples) {
-    for (const auto& [name, values] : samples)
-        fmt::print("  {:<24} {:>10.2f} {:>10.2f}\n", name, median(values), least(values));
-}
-
-void benchLights(Renderer& renderer, uint32_t lights, int frames, uvec2 extent) {
+Column measureLights(Renderer& renderer, uint32_t lights, const Options& options) {
     const Scene scene = loadScene(fmt::format("builtin:hall?lights={}&overlap=4&triangles=40000&seed=1", lights));
     renderer.setScene(scene);
-    const View view{scene.cameras.at(0), extent};
-    const std::string techniques[] = {"brute-force", "fullscreen"};
-    std::map<std::string, Samples> samples;
-    double covered = 0;
+    const View view{scene.cameras.at(0), options.extent};
     const Frame depths = renderer.render(view, {}, {"depth"});
-    for (const float depth : depths.aovs.at("depth").data) covered += depth > 0;
-    // Interleaved, so that the machine's drift meets all. A change of technique makes the frame anew, and a measured frame
-    // that was made anew is preceded by one that does not count.
-    for (int frame = 0; frame < frames; ++frame)
-        for (const std::string& technique : techniques) {
-            const Frame measured = renderer.render(view, {.lighting = technique, .measure = true});
-            for (const PassStats& pass : measured.stats.passes) samples[technique][pass.name].push_back(pass.ms.value());
-        }
-    for (const std::string& technique : techniques) {
-        const Samples& rows = samples.at(technique);
-        const auto& lighting = rows.at("lighting." + technique);
-        const double perLightPixel = 1e6 / (double(lights) * covered);
-        const double total = sumOf(rows, median);
-        fmt::print("\n{} lights, {}, {:.0f} lit pixels: median, minimum in ms\n", lights, technique, covered);
-        printPasses(rows);
-        fmt::print("  {:<24} {:>10.2f} {:>10.2f}\n", "sum", total, sumOf(rows, least));
-        fmt::print("  ns per light and pixel   {:>10.2f} {:>10.2f}\n", median(lighting) * perLightPixel, least(lighting) * perLightPixel);
-        fmt::print("  outside lighting         {:>9.1f} %\n", 100 * (total - median(lighting)) / total);
-    }
+    const auto covered = std::ranges::count_if(depths.aovs.at("depth").data, [](float depth) { return depth > 0; });
+    std::vector<Contender> contenders;
+    for (const char* technique : kTechniques) contenders.push_back(contender(technique));
+    return {double(lights) * double(covered), measure(renderer, view, contenders, {.frames = options.frames})};
+}
+
+const MeasuredPass* passOf(const Measured& result, const std::string& name) {
+    const auto pass = std::ranges::find(result.passes, name, &MeasuredPass::name);
+    return pass == result.passes.end() ? nullptr : &*pass;
+}
+const MeasuredPass& lightingOf(const Measured& result) { return *passOf(result, "lighting." + result.name); }
+
+/// \param cell what stands in the row for a column
+template <typename Cell>
+void printRow(const std::string& title, const std::vector<Column>& columns, const Cell& cell) {
+    fmt::print("| {} |", title);
+    for (const Column& column : columns) fmt::print(" {} |", cell(column));
+    fmt::print("\n");
+}
+
+void printHeader(std::string_view title) {
+    fmt::print("\n| {} |", title);
+    for (const uint32_t lights : kLights) fmt::print(" {} lights |", lights);
+    fmt::print("\n| --- | ---: | ---: | ---: |\n");
 }
 
 }  // namespace
 
 void benchFrames(Renderer& renderer, const Options& options) {
-    fmt::print("builtin:hall, overlap 4, 40,000 triangles\n");
-    for (const uint32_t lights : {16u, 64u, 255u}) benchLights(renderer, lights, options.frames, options.extent);
+    std::vector<Column> columns;
+    for (const uint32_t lights : kLights) columns.push_back(measureLights(renderer, lights, options));
+
+    fmt::print("\n`builtin:hall`, overlap 4, 40,000 triangles. Milliseconds, median (least):\n");
+    printHeader("pass");
+    for (const MeasuredPass& first : columns[0].results[0].passes)
+        printRow(first.name, columns, [&](const Column& column) { return milliseconds(passOf(column.results[0], first.name)->ms); });
+    printRow("lighting.fullscreen instead", columns, [](const Column& column) { return milliseconds(lightingOf(column.results[1]).ms); });
+    for (size_t i = 0; i < kTechniques.size(); ++i)
+        printRow(fmt::format("outside of lighting, {}", kTechniques[i]), columns, [i](const Column& column) {
+            const Measured& result = column.results[i];
+            return fmt::format("{:.1f} %", 100 * (1 - median(lightingOf(result).ms) / median(result.passesMs)));
+        });
+    printHeader("ns for each light and pixel");
+    for (size_t i = 0; i < kTechniques.size(); ++i)
+        printRow(kTechniques[i], columns, [i](const Column& column) {
+            const std::vector<double>& ms = lightingOf(column.results[i]).ms;
+            return fmt::format("{:.1f} ({:.1f})", 1e6 * median(ms) / column.pairs, 1e6 * least(ms) / column.pairs);
+        });
 }
 
 }  // namespace luciole::bench

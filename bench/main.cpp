@@ -46,7 +46,7 @@ void run(int argc, char** argv) {
         throw Error(ErrorKind::usage, fmt::format("expected WIDTHxHEIGHT, got \"{}\"", argv[next]));
     if (argc > ++next) options.folder = argv[next];
     Renderer renderer;
-    fmt::print("{}; {}x{}; {} frames, interleaved\n", bench::describe(bench::machineOf(renderer.device())), options.extent.x, options.extent.y,
+    fmt::print("{}; {}x{}; {} frames, techniques in turn.\n", bench::describe(bench::machineOf(renderer.device())), options.extent.x, options.extent.y,
                options.frames);
     suite.run(renderer, options);
 }

@@ -34,9 +34,8 @@ void measureCell(Renderer& renderer, const Options& options, Cell& cell) {
     // One frame each of those that are far behind.
     if (cell.all) append(cell.results, renderer, view, otherContenders(), 1);
     if (cell.all && cell.lights == 255) append(cell.results, renderer, view, slowContenders(), 1);
-    fmt::print("\n{} lights, overlap {}; the best of the engines takes {} ms\n\n{}\n{}", cell.lights, cell.overlap, cell.engineMs,
+    fmt::print(stderr, "\n{} lights, overlap {}; the best of the engines takes {} ms\n\n{}\n{}", cell.lights, cell.overlap, cell.engineMs,
                frameTable(cell.results, cell.engineMs), lightingTable(cell.results));
-    std::fflush(stdout);
 }
 
 /// The frames of the techniques with lists, of the best other one, and of the engines.
@@ -44,7 +43,7 @@ void printFrames(const std::vector<Cell>& all) {
     const std::vector<Contender> lists = listContenders();
     std::string header = "| lights | overlap | engines' best, ms |", line = "| ---: | ---: | ---: |";
     for (const Contender& contender : lists) header += " " + contender.name + ", ms |", line += " ---: |";
-    fmt::print("\nWhole frames: median (least)\n\n{} best other technique, ms | times faster | pairs missed |\n{} --- | ---: | ---: |\n", header, line);
+    fmt::print("\nWhole frames, ms: median (least); the engines' figures are the best of four known ones on a machine of this kind, software driver, 2 cores, and in such a hall:\n\n{} best other technique, ms | times faster | pairs missed |\n{} --- | ---: | ---: |\n", header, line);
     for (const Cell& cell : all) {
         std::string row = fmt::format("| {} | {} | {} |", cell.lights, cell.overlap, cell.engineMs);
         const Measured *other = nullptr, *best = nullptr;
@@ -66,7 +65,7 @@ void printMultiples(const std::vector<Cell>& all) {
     std::string header = "| technique |", line = "| --- |";
     for (const Cell& cell : all)
         if (cell.all) header += fmt::format(" {} lights, overlap {} |", cell.lights, cell.overlap), line += " ---: |";
-    fmt::print("\nLighting as a multiple of ideal: of the medians (of the least)\n\n{}\n{}\n", header, line);
+    fmt::print("\nLighting, lists included, as a multiple of `ideal` (exact lists given, only their evaluation counted), of the medians (of the least):\n\n{}\n{}\n", header, line);
     const std::vector<Measured>& rows = std::ranges::max_element(all, {}, [](const Cell& cell) { return cell.results.size(); })->results;
     for (const Measured& row : rows) {
         fmt::print("| {} |", row.name);
@@ -81,7 +80,7 @@ void printMultiples(const std::vector<Cell>& all) {
 }  // namespace
 
 void benchTiles(Renderer& renderer, const Options& options) {
-    fmt::print("Halls: {}\n", options.folder.empty() ? "builtin:hall?triangles=40000&gltf=1" : options.folder + "/hall-*.glb");
+    fmt::print("Halls: {}\n", options.folder.empty() ? "`builtin:hall?triangles=40000&gltf=1`" : options.folder + "/hall-*.glb");
     std::vector<Cell> all = cells();
     for (Cell& cell : all) measureCell(renderer, options, cell);
     printFrames(all);
