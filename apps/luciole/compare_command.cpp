@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <luciole/error.hpp>
 #include <memory>
 #include <string>
@@ -30,6 +31,9 @@ void refuseGiven(const CLI::App& command, std::initializer_list<std::string_view
 }
 
 int run(const CLI::App& command, CompareOptions& options) {
+    for (const std::string& input : options.inputs)
+        if (std::error_code none; std::filesystem::equivalent(options.output, input, none))
+            throw Error(ErrorKind::usage, fmt::format("-o: expected another file than those that are read, got \"{}\"", options.output));
     if (options.inputs.size() == 2) {
         refuseGiven(command, {"Scene", "View", "Settings", "Device", "Measuring"}, "two pictures");
         options.pictures.reference = options.inputs[0];

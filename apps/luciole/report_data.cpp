@@ -1,6 +1,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/packing.hpp>
@@ -70,6 +71,12 @@ struct Scales {
     float lights = 1;     ///< evaluated at a pixel
 };
 
+/// Techniques evaluate between a handful of lights and all of them: on a linear scale the better ones would all look alike.
+Image logarithmic(Image counts) {
+    for (float& count : counts.data) count = std::log2(1 + count);
+    return counts;
+}
+
 Json techniqueOf(const Compared& compared, const Frame& reference, const Image& error, size_t image, const Scales& scales) {
     const bench::Measured& measured = compared.measured;
     const bench::Sample wall = bench::sampleOf(measured.wallMs);
@@ -82,7 +89,7 @@ Json techniqueOf(const Compared& compared, const Frame& reference, const Image& 
               {"image", image},
               {"difference", pictureOf(heatMap(error, scales.error))},
               {"flip", pictureOf(heatMap(flipError, 1))},
-              {"overlap", pictureOf(heatMap(compared.frame.aovs.at("evaluations"), scales.lights))},
+              {"overlap", pictureOf(heatMap(logarithmic(compared.frame.aovs.at("evaluations")), std::log2(1 + scales.lights)))},
               {"metrics",
                {{"maxError", finite(100 * errors.max)},
                 {"p999Error", finite(100 * errors.p999)},
@@ -100,15 +107,26 @@ Json techniqueOf(const Compared& compared, const Frame& reference, const Image& 
     return json;
 }
 
+/// Numbers, if all of them are some that have a logarithm; names otherwise.
+Json valuesOf(const std::vector<CellResult>& sweep) {
+    Json names = Json::array(), numbers = Json::array();
+    for (const CellResult& cell : sweep) {
+        const std::string& text = cell.cell.at[0].second;
+        names.push_back(text);
+        double number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error == std::errc() && end == text.data() + text.size() && number > 0) numbers.push_back(number);
+    }
+    return numbers.size() == names.size() ? numbers : names;
+}
+
 Json sweepOf(const std::vector<CellResult>& sweep) {
     if (sweep.empty()) return {};
-    Json json{{"parameter", sweep[0].cell.at[0].first}, {"values", Json::array()}, {"series", Json::array()}};
+    Json json{{"parameter", sweep[0].cell.at[0].first}, {"values", valuesOf(sweep)}, {"series", Json::array()}};
     std::vector<std::string> names;
-    for (const CellResult& cell : sweep) {
-        json["values"].push_back(cell.cell.at[0].second);
+    for (const CellResult& cell : sweep)
         for (const bench::Measured& measured : cell.results)
             if (std::ranges::find(names, measured.name) == names.end()) names.push_back(measured.name);
-    }
     for (const std::string& name : names) {
         Json ms = Json::array();
         for (const CellResult& cell : sweep) {
@@ -151,6 +169,7 @@ std::string reportData(const SceneComparison& comparison, const bench::Machine& 
         if (std::isfinite(summary.p999)) scales.error = std::max(scales.error, float(summary.p999));
         scales.lights = std::max(scales.lights, std::ranges::max(one.frame.aovs.at("evaluations").data));
     }
+    json["mapScales"] = {{"error", 100 * scales.error}, {"lights", scales.lights}};
     for (size_t i = 0; i < compared.size(); ++i) {
         std::vector<uint16_t> planes = halfPlanes(compared[i].frame.radiance);
         std::ranges::transform(planes, truth, planes.begin(), std::bit_xor());

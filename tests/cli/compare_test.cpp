@@ -179,6 +179,7 @@ TEST_CASE("cli: compare refuses with 2 what does not go together, and the messag
     CHECK(has(refused(exr), "expected two .exr or two .png"));
     CHECK(has(refused(folder / "a.jpg"), "a.jpg: expected a name that ends in .png or .exr"));
     CHECK(has(refused(a, {"-o", folder / "map.exr"}), "map.exr: expected a name that ends in .png"));
+    CHECK(has(refused(pngOf(folder, "b.png", even(4, 3, 3, 0.5f)), {"-o", a}), "-o: expected another file than those that are read, got "));
     CHECK(has(refused(a, {"--psnr", "-1"}), "--psnr: expected a number from 0"));
     CHECK(has(refused(a, {"--ssim", "1.5"}), "--ssim: expected a number from -1 to 1, got \"1.5\""));
     CHECK(has(refused(a, {"--flip", "nan"}), "--flip: expected a number"));

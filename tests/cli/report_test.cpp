@@ -89,6 +89,16 @@ TEST_CASE("cli: bench without a name measures the techniques with lists of light
         CHECK(has(bench, std::string("\n| ") + name + " "));
 }
 
+TEST_CASE("cli: bench --passes tells each pass by timestamps and by ablation") {
+    const std::vector<std::string> bench{"bench", "builtin:hall?lights=20&triangles=2000", "--size", "24x18", "--frames", "2", "--lighting", "clustered", "--passes"};
+    const std::string text = outputOf(bench);
+    CHECK(has(text, "| by timestamps, ms | by ablation, ms |"));
+    CHECK(has(text, "| clustered: lighting.clustered "));
+    std::vector<std::string> asJson = bench;
+    asJson.push_back("--json");
+    for (const auto& pass : nlohmann::json::parse(outputOf(asJson))["cells"][0]["results"][0]["passes"]) CHECK(pass["ablatedMs"]["median"].is_number());
+}
+
 TEST_CASE("cli: bench measures all combinations of a sweep, and tells them in JSON and CSV alike") {
     const TemporaryFolder folder;
     const std::string csv = (folder.path() / "b.csv").string(), markdown = (folder.path() / "b.md").string();
@@ -118,6 +128,7 @@ TEST_CASE("cli: bench measures all combinations of a sweep, and tells them in JS
             CHECK(result["missedPairs"] == (samples ? nlohmann::json() : nlohmann::json(0.0)));
             CHECK(result["usefulEvaluations"] <= result["evaluations"]);
             double passes = 0;
+            CHECK_FALSE(result["passes"][0].contains("ablatedMs"));
             for (const auto& pass : result["passes"]) passes += pass["ms"]["median"].get<double>();
             CHECK(passes == doctest::Approx(result["passesMs"]["median"].get<double>()));
         }
@@ -182,7 +193,7 @@ TEST_CASE("cli: compare writes one page about all techniques on a scene") {
         CHECK(technique["passes"].size() > 2);
         CHECK(has(technique["overlap"].get<std::string>(), "data:image/png;base64,"));
     }
-    CHECK(json["sweep"]["values"] == nlohmann::json({"3", "20"}));
+    CHECK(json["sweep"]["values"] == nlohmann::json({3, 20}));
     CHECK(json["sweep"]["series"].size() == json["techniques"].size());
 }
 

@@ -8,14 +8,16 @@ import { requirePackage } from './packages.mjs';
 import { pageOf } from './synthetic.mjs';
 
 const { chromium } = requirePackage('playwright-core');
-const template = await readFile(process.env.LUCIOLE_REPORT_TEMPLATE, 'utf8');
-
 let browser;
 let folder;
+let template;
+
+export const openBrowser = () => chromium.launch({ executablePath: process.env.LUCIOLE_CHROMIUM, args: ['--no-sandbox', '--disable-gpu'] });
 
 export async function startBrowser() {
     folder = await mkdtemp(join(tmpdir(), 'luciole-report-'));
-    browser = await chromium.launch({ executablePath: process.env.LUCIOLE_CHROMIUM, args: ['--no-sandbox', '--disable-gpu'] });
+    template = await readFile(process.env.LUCIOLE_REPORT_TEMPLATE, 'utf8');
+    browser = await openBrowser();
 }
 
 export async function stopBrowser() {

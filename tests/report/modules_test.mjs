@@ -66,7 +66,7 @@ test('numbers: three digits, and no digits that are not there', () => {
     assert.deepEqual([0, 0.01234, 5.1, 88, 1234.5, 1e-5].map((value) => format.number(value)), ['0', '0.0123', '5.10', '88.0', '1,235', '1.00e-5']);
     assert.equal(format.number(null), '–');
     assert.equal(format.bytes(3 << 20), '3.00 MiB');
-    assert.equal(format.signedPercent(-2), '−2.00 %');
+    assert.equal(format.signed(-2), '−2.0');
 });
 
 test('data: what is missing is named', () => {

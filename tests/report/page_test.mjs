@@ -27,6 +27,19 @@ const colorAt = async (page, x, y) => (await colorsFrom(page, x, y, 1))[0];
 const readout = (page) => page.$$eval('#readout tbody tr', (rows) => Object.fromEntries(rows.map((row) =>
     [row.dataset.row, [...row.querySelectorAll('td')].map((cell) => cell.textContent)])));
 
+/// How much of a chart's width something was drawn in.
+const drawnShare = (page, place) => page.$eval(`${place} canvas`, (canvas) => {
+    const { width, height } = canvas;
+    const { data } = canvas.getContext('2d').getImageData(0, 0, width, height);
+    let columns = 0;
+    for (let x = 0; x < width; ++x) {
+        let y = 0;
+        while (y < height && data[4 * (y * width + x) + 3] === 0) ++y;
+        columns += y < height;
+    }
+    return columns / canvas.closest('.chart').clientWidth / window.devicePixelRatio;
+});
+
 const names = (page) => page.$$eval('#technique-table tbody th .name span', (cells) => cells.map((cell) => cell.textContent));
 
 // Blue says which picture a pixel of the canvas comes from (synthetic.mjs); near, since a shrunk picture is resampled.
@@ -106,7 +119,7 @@ test('the wheel zooms to single pixels, and the pointer reads their radiance', (
     const values = await readout(page); // 1 % of the reference's mean: (119.5 / 32 + 79.5 / 32 + 2) / 3 / 100
     assert.deepEqual(values.left, ['2.000', '3.000', '2.000']);
     assert.deepEqual(values.right, ['2.500', '3.000', '2.000']);
-    assert.deepEqual(values.difference, ['+24.7 %', '0 %', '0 %']);
+    assert.deepEqual(values.difference, ['+25', '0', '0']);
     await page.mouse.move(box.x + 64.5 * scale + 128, box.y + 96.5 * scale);
     await drawn(page);
     assert.equal(await page.textContent('#readout-caption'), 'x 66, y 96');
@@ -123,6 +136,8 @@ test('maps can be chosen on either side, and read the radiance of their techniqu
     await page.selectOption('#left-layer', { label: 'tiled, difference' });
     await page.selectOption('#right-layer', { label: 'tiled, overlap' });
     await ready(page, 'tiled, difference', 'tiled, overlap');
+    assert.equal(await page.textContent('#tag-left'), 'tiled, difference (dark 0, yellow 0.023 % and more)');
+    assert.equal(await page.textContent('#tag-right'), 'tiled, overlap (dark 0, yellow 255 lights, log)');
     assert.equal(await page.locator('#left-layer option').count(), 7 + 6 + 6 + 5);
     assertBlue(await colorAt(page, 0.2, 0.3), 40);
 }));
@@ -173,11 +188,22 @@ test('all of it works by keyboard', () => withPage(report, {}, async (page) => {
 test('the charts draw, and stand beside their numbers', () => withPage(report, {}, async (page) => {
     await ready(page, 'reference', 'brute-force');
     assert.equal(await page.locator('.chart canvas').count(), 2);
+    assert.ok(await drawnShare(page, '#cost-chart') > 0.8);
+    assert.ok(await drawnShare(page, '#sweep-chart') > 0.8);
     assert.equal(await page.locator('#cost-chart tbody tr').count(), 6);
     assert.equal(await page.locator('#sweep-chart tbody tr').count(), 6);
     assert.equal(await page.locator('#sweep-chart tbody tr').first().locator('td').last().textContent(), '–');
     assert.equal(await page.locator('#timeline details').count(), 6);
 }));
+
+test('a sweep of what has no logarithm has its values side by side', () => {
+    const series = report.sweep.series.map(({ name, ms }) => ({ name, ms: ms.slice(0, 2) }));
+    return withPage({ ...report, sweep: { parameter: 'gbuffer', values: ['float', 'compact'], series } }, {}, async (page) => {
+        await ready(page, 'reference', 'brute-force');
+        assert.ok(await drawnShare(page, '#sweep-chart') > 0.8);
+        assert.deepEqual(await page.locator('#sweep-chart thead th').allTextContents(), ['Technique', 'float', 'compact']);
+    });
+});
 
 test('on paper nothing is folded and the colours are light; afterwards all is as it was', () => withPage(report, { colorScheme: 'dark' }, async (page) => {
     await ready(page, 'reference', 'brute-force');

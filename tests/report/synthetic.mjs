@@ -77,7 +77,7 @@ function technique(name, index) {
 
 export function syntheticReport() {
     return {
-        schema: 1, title: 'builtin:hall?lights=255',
+        schema: 1, mapScales: { error: 0.0234, lights: 255 }, title: 'builtin:hall?lights=255',
         machine: {
             cpu: 'A processor with a fairly long name @ 2.50 GHz', threads: 2, device: 'llvmpipe (LLVM 15.0.6, 256 bits)',
             driver: 'Mesa 22.3.6', system: 'Linux 6.1', version: '0.1.0', commit: '4b67b8d',

@@ -81,18 +81,21 @@ function drawIntervals(plot, techniques) {
     ctx.restore();
 }
 
-/// Milliseconds against the parameter, both logarithmic. \return a function that draws it anew
+/// Milliseconds against the parameter, both logarithmic; what has no logarithm stands side by side. \return a function that draws it anew
 export function sweepChart(place, { parameter, values, series }) {
-    const chart = figure(place, `Milliseconds a frame against ${parameter}, both axes logarithmic`,
-        numbersTable(`Milliseconds a frame by ${parameter}`, ['Technique', ...values.map((value) => `${integer(value)} ${parameter}`)],
+    const measured = values.every((value) => typeof value === 'number');
+    const names = measured ? values.map(integer) : values;
+    const places = measured ? values : values.map((_, index) => index);
+    const chart = figure(place, `Milliseconds a frame against ${parameter}, ${measured ? 'both axes logarithmic' : 'logarithmic'}`,
+        numbersTable(`Milliseconds a frame by ${parameter}`, ['Technique', ...names.map((name) => (measured ? `${name} ${parameter}` : name))],
             series.map(({ name, ms }) => [name, ...ms.map(milliseconds)])));
     const shown = series.map(() => true);
     const options = () => ({
         width: chart.clientWidth, height: chart.clientWidth < 520 ? 320 : 420,
         legend: { show: false }, cursor: { show: false }, padding: [12, 24, 0, 0],
-        scales: { x: { time: false, distr: 3, range: (_, low, high) => [low / 1.15, high * 1.15] }, y: { distr: 3, range: niceRange } },
+        scales: { x: { time: false, ...(measured ? { distr: 3, range: (_, low, high) => [low / 1.15, high * 1.15] } : { range: [-0.3, values.length - 0.7] }) }, y: { distr: 3, range: niceRange } },
         axes: [
-            axis({ label: parameter, size: 32, labelSize: 20, splits: () => values, filter: (_, splits) => splits, values: (_, splits) => splits.map(integer) }),
+            axis({ label: parameter, size: 32, labelSize: 20, splits: () => places, filter: (_, splits) => splits, values: () => names }),
             axis({ label: 'ms', labelSize: 22, size: 54, values: (_, splits) => splits.map((split) => (split === null ? '' : milliseconds(split).replace(/\.0+$/, ''))) }),
         ],
         series: [{}, ...series.map((_, index) => {
@@ -101,7 +104,7 @@ export function sweepChart(place, { parameter, values, series }) {
         })],
         hooks: { drawSeries: [(plot, index) => drawMarkers(plot, index)] },
     });
-    const draw = redrawn(chart, options, [values, ...series.map(({ ms }) => ms)]);
+    const draw = redrawn(chart, options, [places, ...series.map(({ ms }) => ms)]);
     chart.after(seriesLegend(series.map(({ name }) => name), (index, on) => {
         shown[index] = on;
         draw();

@@ -18,6 +18,7 @@ export function parseReport(text) {
     require(report.view?.width > 0 && report.view?.height > 0, 'The data does not say how large the pictures are.');
     require(Array.isArray(report.images) && report.images.length > 0, 'The data holds no pictures.');
     require(Array.isArray(report.techniques), 'The data holds no list of techniques.');
+    require(report.mapScales, 'The data does not say what the colours of the maps stand for.');
     for (const technique of report.techniques) {
         require(report.images[technique.image] !== undefined, `The picture of ${technique.name} is missing.`);
         require(technique.wallMs && technique.metrics && Array.isArray(technique.passes), `The figures of ${technique.name} are missing.`);
@@ -25,17 +26,19 @@ export function parseReport(text) {
     return report;
 }
 
+const short = (value) => Number(value.toPrecision(2));
+
 /// Everything that can be shown on one side of the viewer. `image` is the picture whose radiance is read out there: that
-/// of the technique, for a map.
+/// of the technique, for a map. `scale`, of a map: what its colours stand for.
 export function layersOf(report) {
     const layers = report.images.map((image, index) => ({ group: 'Pictures', label: image.name, picture: image.picture, image: index }));
-    for (const [key, group, label] of [
-        ['difference', 'Difference from the reference', 'difference'],
-        ['flip', 'FLIP maps', 'FLIP'],
-        ['overlap', 'Overlap maps', 'overlap'],
+    for (const [key, group, label, scale] of [
+        ['difference', 'Difference from the reference', 'difference', `dark 0, yellow ${short(report.mapScales.error)} % and more`],
+        ['flip', 'FLIP maps', 'FLIP', 'dark 0, yellow 1'],
+        ['overlap', 'Overlap maps', 'overlap', `dark 0, yellow ${report.mapScales.lights} lights, log`],
     ]) {
         for (const technique of report.techniques)
-            if (technique[key]) layers.push({ group, label: `${technique.name}, ${label}`, picture: technique[key], image: technique.image });
+            if (technique[key]) layers.push({ group, label: `${technique.name}, ${label}`, scale, picture: technique[key], image: technique.image });
     }
     return layers;
 }

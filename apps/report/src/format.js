@@ -29,7 +29,8 @@ export function radiance(value) {
     return value === 0 ? '0' : number(value, 4);
 }
 
-export function signedPercent(value) {
+/// With its sign, two digits.
+export function signed(value) {
     if (!isNumber(value)) return none;
-    return value === 0 ? '0 %' : `${value > 0 ? '+' : '−'}${number(Math.abs(value))} %`;
+    return value === 0 ? '0' : `${value > 0 ? '+' : '−'}${number(Math.abs(value), 2)}`;
 }

@@ -1,6 +1,6 @@
 // The numbers of one pixel: radiance left and right, and how far right is off left.
 import { element } from './elements.js';
-import { radiance, signedPercent } from './format.js';
+import { radiance, signed } from './format.js';
 import { canInflate, relativeDifference } from './radiance.js';
 
 const channels = ['R', 'G', 'B'];
@@ -48,7 +48,7 @@ export class Readout {
         const rows = [
             ['left', this.#labels[0], values[0], radiance],
             ['right', this.#labels[1], values[1], radiance],
-            ['difference', 'difference', difference, signedPercent],
+            ['difference', 'difference, %', difference, signed],
         ];
         this.#body.replaceChildren(...rows.map(([key, label, numbers, format]) =>
             element('tr', { 'data-row': key },
@@ -57,6 +57,6 @@ export class Readout {
         if (!known) return this.#caption.textContent;
         const list = (numbers, format) => numbers.map((value, channel) => `${channels[channel]} ${format(value)}`).join(', ');
         return `${this.#caption.textContent}. ${this.#labels[0]}: ${list(values[0], radiance)}. ` +
-            `${this.#labels[1]}: ${list(values[1], radiance)}. Difference: ${list(difference, signedPercent)}.`;
+            `${this.#labels[1]}: ${list(values[1], radiance)}. Difference: ${list(difference, (value) => `${signed(value)} %`)}.`;
     }
 }

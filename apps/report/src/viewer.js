@@ -113,7 +113,7 @@ export class Viewer {
         paint(this.canvas, this.viewport, turn(this.#pictures), this.split, this.cursor);
         turn(this.#sides()).forEach((layer, side) => {
             const tag = byId(side ? 'tag-right' : 'tag-left');
-            tag.textContent = layer.label;
+            tag.textContent = layer.scale ? `${layer.label} (${layer.scale})` : layer.label;
             tag.hidden = side ? this.split > 0.98 : this.split < 0.02;
         });
         byId('zoom').textContent = `${Math.round(this.viewport.scale * 100)} %`;
