@@ -1,5 +1,4 @@
 // Pictures of a report for docs/gallery: node gallery.mjs REPORT FOLDER. Run by scripts/gallery.
-import { mkdir } from 'node:fs/promises';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { boxAtRest, drawn, openBrowser, ready } from './browser.mjs';
@@ -7,7 +6,6 @@ import { boxAtRest, drawn, openBrowser, ready } from './browser.mjs';
 const [report, folder] = process.argv.slice(2);
 const technique = 'clustered';
 
-await mkdir(folder, { recursive: true });
 const browser = await openBrowser();
 const context = await browser.newContext({ viewport: { width: 1360, height: 900 }, offline: true });
 const page = await context.newPage();

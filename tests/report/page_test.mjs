@@ -196,6 +196,20 @@ test('the charts draw, and stand beside their numbers', () => withPage(report, {
     assert.equal(await page.locator('#timeline details').count(), 6);
 }));
 
+test('a sweep is drawn in the order of its numbers, whatever the order it was measured in', async () => {
+    const turn = (list) => [...list].reverse();
+    const { values, series } = report.sweep;
+    const turned = { ...report.sweep, values: turn(values), series: series.map(({ name, ms }) => ({ name, ms: turn(ms) })) };
+    const seen = [];
+    for (const sweep of [report.sweep, turned])
+        await withPage({ ...report, sweep }, {}, async (page) => {
+            await ready(page, 'reference', 'brute-force');
+            seen.push([await page.$$eval('#sweep-chart tr', (rows) => rows.map((row) => row.textContent)),
+                await page.$eval('#sweep-chart canvas', (canvas) => canvas.toDataURL())]);
+        });
+    assert.deepEqual(seen[1], seen[0]);
+});
+
 test('a sweep of what has no logarithm has its values side by side', () => {
     const series = report.sweep.series.map(({ name, ms }) => ({ name, ms: ms.slice(0, 2) }));
     return withPage({ ...report, sweep: { parameter: 'gbuffer', values: ['float', 'compact'], series } }, {}, async (page) => {

@@ -82,8 +82,10 @@ function drawIntervals(plot, techniques) {
 }
 
 /// Milliseconds against the parameter, both logarithmic; what has no logarithm stands side by side. \return a function that draws it anew
-export function sweepChart(place, { parameter, values, series }) {
-    const measured = values.every((value) => typeof value === 'number');
+export function sweepChart(place, sweep) {
+    const { parameter } = sweep;
+    const measured = sweep.values.every((value) => typeof value === 'number');
+    const { values, series } = measured ? ascending(sweep) : sweep;
     const names = measured ? values.map(integer) : values;
     const places = measured ? values : values.map((_, index) => index);
     const chart = figure(place, `Milliseconds a frame against ${parameter}, ${measured ? 'both axes logarithmic' : 'logarithmic'}`,
@@ -110,6 +112,13 @@ export function sweepChart(place, { parameter, values, series }) {
         draw();
     }));
     return draw;
+}
+
+// uPlot takes places along an axis only in their order.
+function ascending({ values, series }) {
+    const order = values.map((_, index) => index).sort((a, b) => values[a] - values[b]);
+    const ordered = (list) => order.map((index) => list[index]);
+    return { values: ordered(values), series: series.map(({ name, ms }) => ({ name, ms: ordered(ms) })) };
 }
 
 // Whole steps of 1, 2, 5 round the data, so that the curves use the height there is.
