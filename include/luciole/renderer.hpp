@@ -92,6 +92,23 @@ struct LightListStats {
     uint64_t bytes = 0;     ///< of the lists and what leads to them
 };
 
+/// What became of shadow maps in a frame.
+struct ShadowStats {
+    uint32_t lights = 0;        ///< that have maps: they are in view, and something casts into them
+    uint32_t maps = 0;          ///< of them all: one a spot, a face of a cube, or a cascade
+    uint32_t drawn = 0;         ///< of these in this frame; the others were kept
+    uint32_t casterDraws = 0;   ///< draw calls that took
+    uint32_t coarser = 0;       ///< times that the sides of all maps were halved, so that they fit (shadow-memory)
+    uint64_t texels = 0;        ///< of all maps
+    uint64_t bytes = 0;         ///< of the atlas
+    struct Without {
+        uint32_t light;         ///< index into Scene::lights
+        std::string reason;
+    };
+    std::vector<Without> waiting;  ///< lights of which a map is old, or was never drawn (shadow-redraws): it is next frame's turn
+    std::vector<Without> lost;     ///< lights without a shadow
+};
+
 struct FrameStats {
     std::vector<PassStats> passes;
     double wallMs = 0;          ///< recording, submission and execution, without upload and read-back
@@ -101,6 +118,7 @@ struct FrameStats {
     uint32_t lights = 0;
     std::optional<LightIndexStats> lightIndex;
     std::optional<LightListStats> lightLists;
+    std::optional<ShadowStats> shadows;    ///< setting `shadows` only
     std::optional<LightingChoice> choice;  ///< lighting `auto` only
     std::string deviceName, driver;
 };

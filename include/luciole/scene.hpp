@@ -134,6 +134,7 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;  ///< `mask` only
     bool doubleSided = false;
+    bool castsShadows = true;  ///< whether what it is on keeps light off; false for a lamp's own body
 
     vec4 baseColor{1};  ///< also Cs0 of the shaped equation
     float metallic = 1;
@@ -172,6 +173,9 @@ struct Light {
     bool infiniteViewer = false;  ///< shaped equation, directional: I = (0, 0, 1) in view space instead of -P / |P|
     uint32_t linkGroup = kNone;   ///< index into Scene::linkGroups; kNone: the light touches every object
     uint32_t volume = kNone;      ///< index into Scene::lightVolumes; kNone: range and cone alone bound the light
+    bool castsShadows = true;     ///< with RenderSettings::shadows: whether objects keep it off what lies behind them
+    float shadowSoftness = 1;     ///< [0, 4]: scales the width over which a filtered shadow's edge blurs; 0: hard
+    float shadowResolution = 1;   ///< [1/16, 16]: scales the side of its shadow maps against those of others
 };
 
 /// A closed surface that bounds a light of any type, range and cone apart (Calver 2003, "Concave Light Volume"). Inside

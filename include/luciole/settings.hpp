@@ -19,6 +19,9 @@ enum class LidrTables : uint8_t { buffers, textures };              ///< where s
 enum class OnOverflow : uint8_t { exact, priority, fail };
 enum class TileSize : uint8_t { automatic, n8, n16, n32 };
 enum class Msaa : uint8_t { x1, x4 };  ///< samples a pixel
+enum class Shadows : uint8_t { off, maps };                    ///< docs/techniques/shadows.md
+enum class ShadowFilter : uint8_t { point, jittered, smooth };  ///< how many texels of a shadow map a surface asks
+enum class ShadowCasters : uint8_t { all, frontFaces, backFaces };  ///< the faces that are drawn into shadow maps, as the light sees them
 
 /// How a picture is made. Each member is one row of `settingsTable`.
 struct RenderSettings {
@@ -38,6 +41,11 @@ struct RenderSettings {
     TileSize tileSize = TileSize::automatic;  ///< pixels; tiled and clustered techniques
     std::string bounceLight = "none";  ///< the light whose first bounce is shown: a light's name, or its index in Scene::lights
     uint32_t bounceGrid = 32;          ///< so many small lights a side stand in for the bounce, [1, 256]
+    Shadows shadows = Shadows::off;
+    ShadowFilter shadowFilter = ShadowFilter::jittered;
+    ShadowCasters shadowCasters = ShadowCasters::all;
+    uint32_t shadowMemory = 256;    ///< MiB that shadow maps may take, [1, 4096]
+    uint32_t shadowRedraws = 0;     ///< shadow maps drawn in one frame at most, the most visible first, [0, 65536]; 0: all that need it
     bool cullLights = true;
     float exposureEv = 0;  ///< added to Scene::exposureEv
     ToneMap toneMap = ToneMap::aces;

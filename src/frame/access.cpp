@@ -36,6 +36,7 @@ const AccessInfo kTable[] = {
      BufferUse::eStorageBuffer | BufferUse::eUniformBuffer, false},
     {"compute table read", Stage::eComputeShader, Mask::eShaderStorageRead | Mask::eUniformRead, Layout::eUndefined, {},
      BufferUse::eStorageBuffer | BufferUse::eUniformBuffer, false},
+    {"table sampled", Stage::eFragmentShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled, {}, false},
     {"indirect read", Stage::eDrawIndirect, Mask::eIndirectCommandRead, Layout::eUndefined, {}, BufferUse::eIndirectBuffer, false},
     {"compute sampled", Stage::eComputeShader, Mask::eShaderSampledRead, Layout::eShaderReadOnlyOptimal, ImageUse::eSampled,
      {}, false},
@@ -64,7 +65,7 @@ bool isAttachment(Access access) {
 }
 
 vk::ImageLayout layoutOf(Access access, vk::Format format) {
-    const bool sampled = access == Access::fragmentSampled || access == Access::computeSampled;
+    const bool sampled = access == Access::fragmentSampled || access == Access::computeSampled || access == Access::tableSampled;
     if (format == vk::Format::eD32SfloatS8Uint) {
         if (access == Access::depthWrite) return Layout::eDepthStencilAttachmentOptimal;
         if (sampled || isDepthAttachment(access)) return Layout::eDepthReadOnlyStencilAttachmentOptimal;

@@ -16,6 +16,7 @@ enum class Access : uint8_t {
     fragmentStorageWrite, ///< storage buffer that fragment shaders write (and perhaps read)
     tableRead,            ///< table of the frame's set, uniform or storage buffer, in vertex and fragment shaders
     computeTableRead,     ///< the same in compute shaders
+    tableSampled,         ///< texture of the frame's set, in fragment shaders
     indirectRead,         ///< arguments of a draw
     computeSampled,
     computeStorageRead,

@@ -189,6 +189,7 @@ void Executor::recordPass(const vk::raii::CommandBuffer& commands, uint32_t inde
         commands.setDepthTestEnable(false);
         commands.setDepthWriteEnable(false);
         commands.setDepthCompareOp(vk::CompareOp::eAlways);
+        commands.setDepthBiasEnable(false);
         commands.setStencilTestEnable(false);
         context.stencil(vk::StencilFaceFlagBits::eFrontAndBack, {});
         commands.setStencilCompareMask(vk::StencilFaceFlagBits::eFrontAndBack, 0xff);

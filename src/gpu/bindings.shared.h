@@ -16,6 +16,9 @@ const uint kFrameVolumes = 9u;
 const uint kFrameVolumeVertices = 10u;
 const uint kFrameUniformLightKinds = 11u;  // uniform buffer: the first kinds once more
 const uint kFrameLightTree = 12u;     // sampled image: light_tree.shared.h
+const uint kFrameShadowedLights = 13u;  // storage buffers: shadow.shared.h
+const uint kFrameShadowMaps = 14u;
+const uint kFrameShadowAtlas = 15u;   // sampled image, depth
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names

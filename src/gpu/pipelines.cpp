@@ -31,6 +31,8 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     add(frame, kFrameLightKinds, kFrameVolumeVertices - kFrameLightKinds + 1, Type::eStorageBuffer);
     add(frame, kFrameUniformLightKinds, 1, Type::eUniformBuffer);
     add(frame, kFrameLightTree, 1, Type::eCombinedImageSampler);
+    add(frame, kFrameShadowedLights, 2, Type::eStorageBuffer);
+    add(frame, kFrameShadowAtlas, 1, Type::eCombinedImageSampler);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
     // every slot and would follow a null pointer.
@@ -191,7 +193,8 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const {
                                          vk::DynamicState::eDepthCompareOp,  vk::DynamicState::eStencilTestEnable,
                                          vk::DynamicState::eStencilOp,       vk::DynamicState::eStencilCompareMask,
                                          vk::DynamicState::eStencilWriteMask, vk::DynamicState::eStencilReference,
-                                         vk::DynamicState::eBlendConstants};
+                                         vk::DynamicState::eBlendConstants,  vk::DynamicState::eDepthBiasEnable,
+                                         vk::DynamicState::eDepthBias};
     const vk::PipelineDynamicStateCreateInfo dynamic{.dynamicStateCount = uint32_t(std::size(dynamics)), .pDynamicStates = dynamics};
     const vk::PipelineRenderingCreateInfo formats{.colorAttachmentCount = uint32_t(key.colors.size()),
                                                   .pColorAttachmentFormats = key.colors.data(),

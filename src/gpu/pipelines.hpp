@@ -21,7 +21,7 @@ enum class Blend : uint8_t {
     max,      ///< max(src, dst)
 };
 
-/// What tells one pipeline from another. Cull mode, front face, depth and stencil state and the blend constant are dynamic and not
+/// What tells one pipeline from another. Cull mode, front face, depth (its bias, too) and stencil state and the blend constant are dynamic and not
 /// in here.
 struct PipelineKey {
     std::string vertex;

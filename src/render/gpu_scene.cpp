@@ -27,6 +27,9 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::DeviceSize kUniformLightBytes = kUniformLights * sizeof(PackedLight);
 constexpr vk::DeviceSize kUniformLightKindBytes = kUniformLightKinds * sizeof(LightKind);
 
+/// For textures of which single texels are read.
+constexpr Sampler kTexels{.wrapU = Wrap::clampToEdge, .wrapV = Wrap::clampToEdge, .magFilter = Filter::nearest, .minFilter = Filter::nearest, .mipFilter = MipFilter::none};
+
 /// The textures of a material in the order of kTexture*, and whether each holds sRGB colours.
 struct TextureRole {
     const TextureUse* use;
@@ -122,7 +125,8 @@ gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, co
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
     : context_(context), sceneLights_(scene.lights), functionCount_(uint32_t(scene.functions.size())), volumes_(volumeTables(scene)),
       objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
-      exposureEv_(scene.exposureEv) {
+      exposureEv_(scene.exposureEv), boundsWorld_(luciole::boundsOf(scene)), shadows_(context) {
+    for (const LinkGroup& group : scene.linkGroups) castingObjects_.push_back(group.castingObjects);
     uploadMeshes(scene);
     uploadObjects(scene);
     uploadMaterials(scene);
@@ -178,7 +182,10 @@ void GpuScene::uploadObjects(const Scene& scene) {
         const Batch alone{mesh, material, flipped, uint32_t(table.size()), 1};
         const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
         const Bounds bounds = boundsOf(scene, scene.objects[i]);
-        if (!blended) opaque_.push_back({scene.objects[i].objectId, bounds});
+        if (!blended) {
+            opaque_.push_back({scene.objects[i].objectId, bounds});
+            casters_.push_back({bounds, scene.objects[i].objectId, scene.materials[material].castsShadows});
+        }
         if (blended)
             blended_.push_back({alone, 0.5f * (bounds.low + bounds.high)});
         else if (joins)
@@ -246,8 +253,8 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * 2},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (1 + kFrameFunctions - kFrameLights + kFrameVolumeVertices - kFrameLightKinds + 1)},
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * 3},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * (1 + kFrameFunctions - kFrameLights + kFrameVolumeVertices - kFrameLightKinds + 1 + 2)},
                                             {vk::DescriptorType::eUniformBuffer, count + 2 * 4}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
@@ -387,7 +394,9 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
                                 {kFrameLightKinds, *lightKinds_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameUniformLightKinds, *lightKinds_.handle, uniform, std::min(kUniformLightKindBytes, most)},
                                 {kFrameVolumes, *volumeTable_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE}};
+                                {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE},
+                                {kFrameShadowedLights, shadows_.shadowedLights(), storage, VK_WHOLE_SIZE},
+                                {kFrameShadowMaps, shadows_.maps(), storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
         context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
@@ -397,18 +406,45 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
                                                                       .pBufferInfo = &info},
                                                nullptr);
     }
-    for (const auto& [slot, image] : {std::pair(kFrameFunctions, &functions_), std::pair(kFrameLightTree, &lightTree_)}) {
-        const vk::DescriptorImageInfo info{.sampler = samplerOf({}),
-                                           .imageView = *image->view,
-                                           .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
+    struct Texture {
+        uint32_t slot;
+        vk::ImageView view;
+        vk::Sampler sampler;
+        vk::ImageLayout layout;
+    };
+    const auto readOnly = vk::ImageLayout::eShaderReadOnlyOptimal;
+    const Texture textures[] = {{kFrameFunctions, *functions_.view, samplerOf({}), readOnly},
+                                {kFrameLightTree, *lightTree_.view, samplerOf({}), readOnly},
+                                {kFrameShadowAtlas, shadows_.atlas(), samplerOf(kTexels), vk::ImageLayout::eDepthReadOnlyOptimal}};
+    for (const Texture& texture : textures) {
+        const vk::DescriptorImageInfo info{.sampler = texture.sampler, .imageView = texture.view, .imageLayout = texture.layout};
         context_.device().updateDescriptorSets(
             vk::WriteDescriptorSet{.dstSet = set,
-                                   .dstBinding = slot,
+                                   .dstBinding = texture.slot,
                                    .descriptorCount = 1,
                                    .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                    .pImageInfo = &info},
             nullptr);
     }
+}
+
+bool GpuScene::setShadows(const View& view, const RenderSettings& settings) {
+    if (settings.shadows == Shadows::off) return false;
+    const auto castsFor = [&](uint32_t group, uint32_t objectId) {
+        return group == kNone || (objectId < castingObjects_[group].size() && castingObjects_[group][objectId]);
+    };
+    const vk::Image atlas = shadows_.atlasImage();
+    const bool changed = shadows_.update({.view = view,
+                                          .settings = settings,
+                                          .lights = sceneLights_,
+                                          .casters = casters_,
+                                          .boundsWorld = boundsWorld_,
+                                          .castsFor = castsFor,
+                                          .largestSide = std::min({context_.limits().maxImageDimension2D, context_.limits().maxFramebufferWidth, context_.limits().maxFramebufferHeight}),
+                                          .version = lightsVersion_},
+                                         lightCount());
+    if (changed) writeFrameSets();
+    return shadows_.atlasImage() != atlas;
 }
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
@@ -475,6 +511,37 @@ void GpuScene::drawDepth(frame::PassContext& pass) const {
         const DrawMaterial& material = drawMaterials_[batch.material];
         bindMaterial(pass, batch.material, {material.masked ? "render/geometry/depth_masked.frag" : "", {0, ~0u, ~0u}});
         drawBatch(pass, batch);
+    }
+}
+
+void GpuScene::drawCasters(frame::PassContext& pass, const PlannedMap& map, ShadowCasters faces) const {
+    if (map.casters.empty()) return;
+    bindMeshes(pass);
+    const ShadowPush push = ShadowPlan::push(map);
+    auto caster = map.casters.begin();
+    for (const Batch& batch : batches_) {
+        const uint32_t end = batch.firstObject + batch.objectCount;
+        if (caster == map.casters.end()) return;
+        if (*caster >= end) continue;
+        const DrawMaterial& material = drawMaterials_[batch.material];
+        if (material.masked) {
+            pass.bind({.vertex = "render/shadow/shadow.vert+MASKED", .fragment = "render/geometry/depth_masked.frag", .meshVertices = true,
+                       .constants = {0, ~0u, ~0u, material.surfaceShader, material.masked, material.inputs}});
+            pass.bindSet(kMaterialSet, material.set);
+        } else {
+            pass.bind({.vertex = "render/shadow/shadow.vert", .meshVertices = true});
+        }
+        pass.push(push);
+        pass.commands.setCullMode(faces == ShadowCasters::frontFaces  ? vk::CullModeFlagBits::eBack
+                                  : faces == ShadowCasters::backFaces ? vk::CullModeFlagBits::eFront
+                                                                      : vk::CullModeFlagBits::eNone);
+        while (caster != map.casters.end() && *caster < end) {
+            Batch run = batch;
+            run.firstObject = *caster;
+            run.objectCount = 0;
+            for (; caster != map.casters.end() && *caster == run.firstObject + run.objectCount && *caster < end; ++caster) ++run.objectCount;
+            drawBatch(pass, run);
+        }
     }
 }
 

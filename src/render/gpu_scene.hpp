@@ -9,6 +9,7 @@
 #include "frame/pass_context.hpp"
 #include "gpu/pipelines.hpp"
 #include "gpu/resources.hpp"
+#include "render/shadow/shadow_maps.hpp"
 #include "render/tables.hpp"
 
 namespace luciole::render {
@@ -71,6 +72,12 @@ public:
     const std::optional<Bounce>& bounce() const { return bounce_; }
     vk::DescriptorSet bounceSet() const { return bounceSet_; }  ///< as frameSet, but seen from the light that bounces
 
+    /// Plans the shadow maps of a frame (shadow_plan.hpp). \return whether a frame graph made before won't do: it knows the atlas
+    /// \throws as ShadowPlan::update
+    bool setShadows(const View& view, const RenderSettings& settings);
+    ShadowMaps& shadows() { return shadows_; }
+    const ShadowMaps& shadows() const { return shadows_; }
+
     /// Writes what depends on the view, whatever the number of lights.
     void setView(const View& view, const RenderSettings& settings, GBufferLayout layout);
     const shared::ViewConstants& view() const { return viewConstants_; }
@@ -97,6 +104,8 @@ public:
 
     /// Draws the surfaces that hide what is behind them: their depth, or shaded.
     void drawDepth(frame::PassContext& pass) const;
+    /// Draws those of them that cast into a shadow map, as its light sees them.
+    void drawCasters(frame::PassContext& pass, const PlannedMap& map, ShadowCasters faces) const;
     void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const;
     /// Calls `draw` for each batch of them with its material bound, for whoever draws parts of it, or draws it more than once.
     void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading, const std::function<void(const Batch&)>& draw) const;
@@ -146,6 +155,8 @@ private:
     gpu::Image functions_, lightTree_;
     std::vector<Batch> batches_;
     std::vector<OpaqueObject> opaque_;
+    std::vector<ShadowCaster> casters_;               ///< the same objects
+    std::vector<std::vector<bool>> castingObjects_;   ///< LinkGroup::castingObjects
     std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
     /// Texels by [image][sRGB]: one image may serve as colour and as data.
@@ -164,6 +175,8 @@ private:
     shared::ViewConstants viewConstants_{};
     Ambience ambience_;
     float exposureEv_ = 0;
+    Bounds boundsWorld_;  ///< of all objects
+    ShadowMaps shadows_;
     uint32_t equations_ = 0;
     uint32_t lightFeatures_ = 0;
     std::vector<uint32_t> linkTable_;

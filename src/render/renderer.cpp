@@ -90,6 +90,13 @@ bool needsStencil(const LightingTechnique& technique, const GpuScene& scene) {
     return technique.stencil == Stencil::always || (technique.stencil == Stencil::forMeshes && scene.lights().meshes > 0);
 }
 
+/// What lighting shaders have to know of shadows (types.shared.h).
+uint32_t shadowFeatures(const RenderSettings& settings) {
+    if (settings.shadows == Shadows::off) return 0;
+    const uint32_t filters[] = {0, shared::kShadowsJittered, shared::kShadowsSmooth};
+    return shared::kUsesShadows | filters[size_t(settings.shadowFilter)];
+}
+
 /// The whole frame, in order.
 BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, const GpuScene& scene, const FrameKey& key) {
     const vk::Extent2D extent{key.extent.x, key.extent.y};
@@ -99,7 +106,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const auto radianceFormat = key.settings.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
                                                                                        : vk::Format::eR16G16B16A16Sfloat;
     const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
-    const std::vector<uint32_t> constants{uint32_t(key.settings.gbuffer), scene.equations(), scene.lightFeatures()};
+    const std::vector<uint32_t> constants{uint32_t(key.settings.gbuffer), scene.equations(), scene.lightFeatures() | shadowFeatures(key.settings)};
     const auto samples = samplesOf(key.settings.msaa);
     const bool multisampled = samples != vk::SampleCountFlagBits::e1;
     const bool depthFirst = key.settings.depthPrepass || (technique.forward && !multisampled);
@@ -107,11 +114,14 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     addGeometry(graph, scene, gbuffer, constants, depthFirst);
     const frame::BufferId lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable());
     if (scene.bounce()) addBounce(graph, scene, lights);
+    const frame::ImageId shadows = scene.shadows().import(graph);
+    if (key.settings.shadows != Shadows::off) scene.shadows().addPass(graph, scene, shadows, key.settings.shadowCasters);
     LightingReport report;
     LightingInputs lighting{.gbuffer = gbuffer,
                             .scene = scene,
                             .constants = constants,
                             .lights = lights,
+                            .shadows = shadows,
                             .depth = gbuffer.depth,
                             .settings = key.settings,
                             .attempt = key.attempt,
@@ -156,6 +166,8 @@ bool sortsByView(const RenderSettings& settings, const GpuScene& scene) {
 RenderSettings withoutData(RenderSettings settings) {
     const RenderSettings defaults;
     settings.cullLights = defaults.cullLights;
+    settings.shadowMemory = defaults.shadowMemory;
+    settings.shadowRedraws = defaults.shadowRedraws;
     settings.exposureEv = defaults.exposureEv;
     settings.measure = defaults.measure;
     return settings;
@@ -332,6 +344,7 @@ struct Renderer::Impl {
     std::vector<render::CostSample> calibrate(const render::CostVariant& variant, uint32_t& frames) {
         RenderSettings settings = variant.settings;
         settings.bounceLight = "none";
+        settings.shadows = Shadows::off;
         std::vector<render::CostSample> samples;
         for (const auto& [scene, view] : render::calibrationViews(variant)) {
             frame.reset();
@@ -384,6 +397,7 @@ struct Renderer::Impl {
         render::CostVariant variant{settings, gpuScene->equations() & shared::kEquationBits, (gpuScene->lightFeatures() & shared::kUsesUniformLights) != 0};
         variant.settings.bounceLight = RenderSettings{}.bounceLight;
         variant.settings.bounceGrid = RenderSettings{}.bounceGrid;
+        variant.settings.shadows = Shadows::off;  // which cost all techniques about the same
         const render::Coefficients costs = coefficients(variant, told);
         LightingAdvice advice = render::advise(counts, settings, circumstances(settings, lists), costs);
         advice.countingFrames = 1;
@@ -411,7 +425,8 @@ struct Renderer::Impl {
 
     std::vector<PassStats> ablate(const View& view, RenderSettings settings) {
         settings.measure = false;
-        const Frame whole = renderChosen(view, settings, {});  // warm from here on
+        renderChosen(view, settings, {});
+        const Frame whole = renderChosen(view, settings, {});  // warm from here on, and shadow maps are there
         std::vector<PassStats> passes = whole.stats.passes;
         using Clock = std::chrono::steady_clock;
         double before = 0;
@@ -432,6 +447,7 @@ struct Renderer::Impl {
         const bool others = std::ranges::any_of(aovs, [](const std::string& aov) { return !render::isCount(aov) && !isListLayer(aov); });
         if (lists) render::requireLists(settings.lighting);
         if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
+        if (gpuScene->setShadows(view, settings)) frame.reset();
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
         render::FrameKey key{view.extent, render::structureOf(settings), others, counts, lists};
         if (render::plansLights(settings)) key.lights = gpuScene->lightsVersion();
@@ -441,11 +457,20 @@ struct Renderer::Impl {
         if (!frame || frame->key != key || frame->excessive) key.attempt = {.report = settings.onOverflow == OnOverflow::priority};
         const render::LightIndexSelfTest::Outcome tried = trial(settings);
         key.attempt.list |= tried.wrong > 0;
-        FrameStats stats = runUntilHeld(key, settings);
+        FrameStats stats;
+        try {
+            stats = runUntilHeld(key, settings);
+        } catch (...) {
+            gpuScene->shadows().forget();
+            throw;
+        }
+        if (settings.shadows != Shadows::off) stats.shadows = gpuScene->shadows().stats();
         if (stats.lightIndex) stats.lightIndex->selfTestMs = tried.ms, stats.lightIndex->wrongValues = tried.wrong;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
         stats.passes = frame->executor.stats();
+        for (const PassStats& pass : stats.passes)
+            if (stats.shadows && pass.name == "shadow.maps") stats.shadows->casterDraws = pass.draws;
         stats.recordMs = frame->executor.recordMs();
         stats.peakBytes = context.peakBytes();
         stats.triangles = gpuScene->triangles();

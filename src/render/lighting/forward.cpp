@@ -12,7 +12,8 @@ ForwardPass addForwardPass(frame::FrameGraph& graph, const LightingInputs& in, f
     const bool replaces = which == Surfaces::opaque && !in.counting();
     const frame::ImageId target = replaces && !first ? graph.createImage("radiance.more", graph.descOf(sum)) : sum;
     auto pass = graph.addPass(in.phase + name);
-    pass.read(in.lights, Access::tableRead).read(in.depth, Access::depthTest);
+    in.readLightsBy(pass);
+    pass.read(in.depth, Access::depthTest);
     if (graph.descOf(in.depth).samples != vk::SampleCountFlagBits::e1)
         pass.read(in.depth, Access::fragmentSampled, shared::kForwardDepth);
     if (in.counting())

@@ -271,8 +271,8 @@ void addSharedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum) {
         graph.addPass(x.in.phase + "light-indexed.clear")
             .clear(x.numbers, Access::colorWrite, vk::ClearColorValue(0.0f, 0.0f, 0.0f, 0.0f));
     auto pass = graph.addPass(x.in.phase + "light-indexed.surfaces");
-    pass.read(x.in.lights, Access::tableRead)
-        .update(x.in.depth, Access::stencilWrite)
+    x.in.readLightsBy(pass);
+    pass.update(x.in.depth, Access::stencilWrite)
         .update(sum, Access::colorFeedback, shared::kIndexImages)
         .read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
     for (const uint32_t slot : {1u, 2u, 3u})

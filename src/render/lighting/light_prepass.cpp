@@ -48,8 +48,8 @@ void addLightPrepass(frame::FrameGraph& graph, const LightingInputs& in, ImageId
     const auto declare = [&](frame::PassBuilder& pass, Access depth) {
         pass.read(stored.surface, Access::fragmentSampled, shared::kPrepassSurface)
             .read(stored.object, Access::fragmentSampled, shared::kPrepassObject)
-            .read(in.depth, Access::fragmentSampled, shared::kPrepassDepth)
-            .read(in.lights, Access::tableRead);
+            .read(in.depth, Access::fragmentSampled, shared::kPrepassDepth);
+        in.readLightsBy(pass);
         depth == Access::stencilWrite ? pass.update(in.depth, depth) : pass.read(in.depth, depth);
         if (in.counting()) pass.update(sum, Access::colorBlend);
         for (uint32_t i = 0; i < terms.size() && !in.counting(); ++i) pass.clear(terms[i], Access::colorBlend, kZero);

@@ -4,7 +4,7 @@
 #include "render/shaders/types.shared.h"
 SHARED_BEGIN
 const uint kNeedsRows = kUsesCurves | kUsesVolumes | kUsesLinks;
-const uint kNeedsKinds = kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kUsesLambertian | kCountsLights;
+const uint kNeedsKinds = kUsesSpot | kUsesDirectional | kUsesCurves | kUsesVolumes | kUsesContributions | kUsesLambertian | kCountsLights | kUsesShadows;
 // \param features of the scene, kUses*
 SHARED_FN uint texelsOfLight(uint features) {
     if ((features & kNeedsRows) != 0u) return 5u;

@@ -35,6 +35,7 @@ struct LightingInputs {
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
     frame::BufferId lights;           ///< the table of lights, which the frame's set names
+    frame::ImageId shadows;           ///< the atlas of shadow maps, likewise
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
@@ -46,10 +47,13 @@ struct LightingInputs {
 
     bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }
 
+    /// Declares that a pass reads lights, and what keeps them off.
+    void readLightsBy(frame::PassBuilder& pass) const { pass.read(lights, frame::Access::tableRead).read(shadows, frame::Access::tableSampled); }
+
     /// Declares that a pass reads G-buffer and lights, and tests against depth (see readGBuffer).
     void readBy(frame::PassBuilder& pass, frame::Access depthAccess = frame::Access::depthTest) const {
         readGBuffer(pass, gbuffer, depthAccess);
-        pass.read(lights, frame::Access::tableRead);
+        readLightsBy(pass);
     }
 };
 

@@ -5,6 +5,7 @@
 #include "luciole/light_index.glsl"
 #include "render/shaders/frame.glsl"
 #include "render/shaders/surface.glsl"
+#include "render/shadow/shadow.glsl"
 
 const float kPi = 3.14159265358979;
 
@@ -184,10 +185,11 @@ vec3 shadeMetallicRoughness(ShadingPoint p, LightTerms terms) { return p.diffuse
 bool hasEquation(ShadingPoint p, uint equation) { return isEquation(equation, p.m); }
 
 LightTerms lightTerms(ShadingPoint p, LightConstants light) {
-    const Arrival arrival = arrivalAt(light, p.s.P);
+    Arrival arrival = arrivalAt(light, p.s.P);
     vec3 shares = vec3(0);
     if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return termsOf(shares, vec3(0));
     if (usesLights(kUsesVolumes) && arrival.E != vec3(0) && !inVolume(light, p.s.P)) return termsOf(shares, vec3(0));
+    if (usesLights(kUsesShadows) && arrival.E != vec3(0)) arrival.E *= unshadowed(light, p.s.P, p.s.N, arrival.L);
     vec2 keep = vec2(1);
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {

@@ -117,6 +117,9 @@ const uint kCountsLights = 256u;     // passes add up what they evaluate instead
 const uint kUsesLambertian = 512u;
 const uint kUsesUniformLightKinds = 1024u;  // likewise all kinds of lights
 const uint kUniformLightKinds = 4096u;      // of 16 bytes
+const uint kUsesShadows = 2048u;            // shadow maps keep light off (shadow.glsl), by enum ShadowFilter:
+const uint kShadowsJittered = 4096u;
+const uint kShadowsSmooth = 8192u;
 
 SHARED_END
 #endif

@@ -1,0 +1,116 @@
+#include "render/shadow/shadow_maps.hpp"
+
+#include <algorithm>
+
+#include "frame/pass_context.hpp"
+#include "render/gpu_scene.hpp"
+
+namespace luciole::render {
+
+using frame::Access;
+
+namespace {
+
+constexpr vk::Format kFormat = vk::Format::eD32Sfloat;
+constexpr vk::ImageLayout kLayout = vk::ImageLayout::eDepthReadOnlyOptimal;
+static_assert(sizeof(shared::ShadowMap) == 88 && sizeof(shared::ShadowPush) == 76);
+
+}  // namespace
+
+ShadowMaps::ShadowMaps(const gpu::Context& context) : context_(context) {
+    makeAtlas({1, 1});
+    upload(shadowedLights_, "shadowed lights", std::as_bytes(std::span<const uint32_t>()));
+    upload(maps_, "shadow maps", std::as_bytes(std::span<const shared::ShadowMap>()));
+}
+
+void ShadowMaps::makeAtlas(vk::Extent2D extent) {
+    using Usage = vk::ImageUsageFlagBits;
+    atlas_ = {};  // first: both may not fit
+    atlas_ = gpu::makeImage(context_, "shadow atlas", {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferDst});
+    context_.runOnce([&](const vk::raii::CommandBuffer& commands) {
+        const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
+        const auto turn = [&](vk::ImageLayout from, vk::ImageLayout to) {
+            const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                                  .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                                  .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                                  .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                                  .oldLayout = from,
+                                                  .newLayout = to,
+                                                  .image = *atlas_.handle,
+                                                  .subresourceRange = all};
+            commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+        };
+        turn(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+        commands.clearDepthStencilImage(*atlas_.handle, vk::ImageLayout::eTransferDstOptimal, vk::ClearDepthStencilValue{0.0f, 0}, all);
+        turn(vk::ImageLayout::eTransferDstOptimal, kLayout);
+    });
+}
+
+bool ShadowMaps::upload(gpu::Buffer& buffer, const char* name, std::span<const std::byte> data) {
+    const uint64_t bytes = std::max<uint64_t>(data.size(), sizeof(shared::ShadowMap));
+    const bool larger = bytes > buffer.bytes;
+    if (larger) buffer = gpu::makeBuffer(context_, name, bytes, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
+    if (data.empty()) return larger;
+    if (data.size() > staging_.bytes()) staging_ = gpu::MappedBuffer(context_, "shadow staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    gpu::updateBuffer(context_, buffer, data, staging_);
+    return larger;
+}
+
+bool ShadowMaps::update(const ShadowPlan::Inputs& in, uint32_t lightCount) {
+    plan_.update(in);
+    bool changed = false;
+    const vk::Extent2D extent{plan_.extent().x, plan_.extent().y};
+    if (extent.width > 0 && extent != atlas_.extent) {
+        makeAtlas(extent);
+        changed = true;
+    }
+    std::vector<uint32_t> lights(lightCount, 0);
+    std::vector<shared::ShadowMap> maps;
+    const dvec3 eye(in.view.camera.worldFromView[3]);
+    for (const PlannedMap& map : plan_.maps()) {
+        uint32_t& light = lights[map.light];
+        if (light == 0) {
+            light = uint32_t(maps.size()) << shared::kShadowCountBits | ShadowPlan::mapsOf(in.lights[map.light]);
+            maps.resize(maps.size() + ShadowPlan::mapsOf(in.lights[map.light]));
+        }
+        maps[(light >> shared::kShadowCountBits) + map.face] = ShadowPlan::constants(map, in.lights[map.light].shadowSoftness, eye);
+    }
+    const auto bring = [&](gpu::Buffer& buffer, const char* name, std::vector<std::byte>& uploaded, std::span<const std::byte> data) {
+        if (std::ranges::equal(uploaded, data)) return;
+        changed |= upload(buffer, name, data);
+        uploaded.assign(data.begin(), data.end());
+    };
+    bring(shadowedLights_, "shadowed lights", uploadedLights_, std::as_bytes(std::span(lights)));
+    bring(maps_, "shadow maps", uploadedMaps_, std::as_bytes(std::span(maps)));
+    return changed;
+}
+
+frame::ImageId ShadowMaps::import(frame::FrameGraph& graph) const {
+    return graph.importImage("shadow-atlas", {kFormat, atlas_.extent}, *atlas_.handle, kLayout);
+}
+
+void ShadowMaps::addPass(frame::FrameGraph& graph, const GpuScene& scene, frame::ImageId atlas, ShadowCasters faces) const {
+    graph.addPass("shadow.maps").update(atlas, Access::depthWrite).record([this, &scene, faces](frame::PassContext& pass) {
+        if (plan_.dirty().empty()) return;
+        pass.depth(vk::CompareOp::eGreaterOrEqual, true);
+        pass.commands.setDepthBiasEnable(true);
+        pass.commands.setDepthBias(0, 0, -shared::kShadowSlopeBias);  // depth is reversed: away from the light is less
+        for (const uint32_t i : plan_.dirty()) {
+            const PlannedMap& map = plan_.maps()[i];
+            const auto side = map.page.side;
+            const vk::Rect2D page{{int32_t(map.page.first.x), int32_t(map.page.first.y)}, {side, side}};
+            pass.commands.setViewport(0, vk::Viewport{float(page.offset.x), float(page.offset.y), float(side), float(side), 0, 1});
+            pass.commands.setScissor(0, page);
+            pass.commands.clearAttachments(vk::ClearAttachment{vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue{0.0f, 0}}, vk::ClearRect{page, 0, 1});
+            scene.drawCasters(pass, map, faces);
+        }
+    });
+}
+
+ShadowStats ShadowMaps::stats() const {
+    ShadowStats stats = plan_.stats();
+    stats.bytes = atlas_.bytes;
+    return stats;
+}
+
+}  // namespace luciole::render

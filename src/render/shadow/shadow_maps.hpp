@@ -1,0 +1,46 @@
+#pragma once
+#include "frame/graph.hpp"
+#include "gpu/resources.hpp"
+#include "render/shadow/shadow_plan.hpp"
+
+namespace luciole::render {
+
+class GpuScene;
+
+/// Shadow maps on the device: the atlas, and what shaders know of it. Kept from frame to frame.
+class ShadowMaps {
+public:
+    explicit ShadowMaps(const gpu::Context& context);
+
+    /// Plans the maps of a frame and tells shaders about them. \param lightCount of the table of lights
+    /// \return whether buffers or the atlas are others than before
+    /// \throws as ShadowPlan::update
+    bool update(const ShadowPlan::Inputs& in, uint32_t lightCount);
+
+    /// The atlas, which the frame's set names, for passes that light surfaces.
+    frame::ImageId import(frame::FrameGraph& graph) const;
+    /// The pass that draws what the plan says ("shadow.maps").
+    void addPass(frame::FrameGraph& graph, const GpuScene& scene, frame::ImageId atlas, ShadowCasters faces) const;
+
+    vk::Buffer shadowedLights() const { return *shadowedLights_.handle; }
+    vk::Buffer maps() const { return *maps_.handle; }
+    vk::ImageView atlas() const { return *atlas_.view; }
+    vk::Image atlasImage() const { return *atlas_.handle; }
+    /// What the plan wanted drawn was not.
+    void forget() { plan_.forget(); }
+    const ShadowPlan& plan() const { return plan_; }
+    ShadowStats stats() const;
+
+private:
+    bool upload(gpu::Buffer& buffer, const char* name, std::span<const std::byte> data);
+    void makeAtlas(vk::Extent2D extent);
+
+    const gpu::Context& context_;
+    ShadowPlan plan_;
+    gpu::Image atlas_;
+    gpu::Buffer shadowedLights_, maps_;
+    gpu::MappedBuffer staging_;
+    std::vector<std::byte> uploadedLights_, uploadedMaps_;  ///< what the buffers hold
+};
+
+}  // namespace luciole::render

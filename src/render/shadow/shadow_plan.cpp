@@ -1,0 +1,491 @@
+#include "render/shadow/shadow_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <luciole/error.hpp>
+
+#include "render/lighting/light_volume.shared.h"
+#include "render/tables.hpp"
+
+namespace luciole::render {
+namespace {
+
+using namespace shared;
+
+constexpr uint32_t kLeastSide = 16;       // texels
+constexpr uint32_t kUsualSide = 1024;     // largest of a light's maps that asks for no finer ones
+constexpr uint32_t kSunSide = 2048;       // likewise of a cascade
+constexpr double kWidestMap = 1.0;        // radians, half the angle of one map; wider spots have the faces of a cube
+constexpr uint32_t kCascades = 4;
+constexpr double kBorder = 4;             // texels around what a light needs, for taps, and at most an eighth of the page
+constexpr double kMostBorder = 4.0 / 3;   // so much wider is a map then
+constexpr double kPixelsPerTexel = 2;     // where the light ends, if that lies no nearer to the eye than its range
+
+/// FNV-1a, 64 bits.
+class Signature {
+public:
+    template <typename T>
+    Signature& add(const T& value) {
+        static_assert(std::is_arithmetic_v<T>);
+        unsigned char bytes[sizeof value];
+        std::memcpy(bytes, &value, sizeof value);
+        for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ull;
+        return *this;
+    }
+    Signature& add(dvec3 v) { return add(v.x).add(v.y).add(v.z); }
+    uint64_t value() const { return hash_ | 1; }  // 0 stands for nothing
+
+private:
+    uint64_t hash_ = 14695981039346656037ull;
+};
+
+uint64_t signatureOf(const ShadowFrustum& frustum, uint32_t linkGroup) {
+    return Signature().add(frustum.origin).add(frustum.right).add(frustum.down).add(frustum.forward).add(frustum.tangent).add(frustum.depth).add(linkGroup).value();
+}
+
+/// How far a box reaches along a direction.
+double reachAlong(dvec3 direction, dvec3 halfSize) { return dot(abs(direction), halfSize); }
+
+/// Whether a box may be seen from the light; never false for one that is.
+bool sees(const ShadowFrustum& frustum, const Bounds& boundsWorld) {
+    const dvec3 halfSize = 0.5 * (dvec3(boundsWorld.high) - dvec3(boundsWorld.low));
+    const dvec3 center = 0.5 * (dvec3(boundsWorld.high) + dvec3(boundsWorld.low)) - frustum.origin;
+    const auto outside = [&](dvec3 inwards, double offset) { return dot(inwards, center) + reachAlong(inwards, halfSize) < -offset; };
+    for (const dvec3 side : {frustum.right, frustum.down})
+        for (const double sign : {1.0, -1.0}) {
+            if (frustum.orthographic ? outside(sign * side, frustum.tangent) : outside(kMostBorder * frustum.tangent * frustum.forward + sign * side, 0)) return false;
+        }
+    if (outside(frustum.forward, 0)) return false;
+    if (frustum.orthographic) return !outside(-frustum.forward, frustum.depth);
+    const dvec3 nearest = max(abs(center) - halfSize, dvec3(0));
+    return dot(nearest, nearest) < frustum.depth * frustum.depth;
+}
+
+/// What the camera sees, as far as light has to be there.
+class SeenSpace {
+public:
+    explicit SeenSpace(const View& view)
+        : viewFromWorld_(inverse(dmat4(view.camera.worldFromView))), eye_(view.camera.worldFromView[3]), orthographic_(view.camera.orthographic) {
+        const double aspect = double(view.extent.x) / view.extent.y;
+        const double half = orthographic_ ? view.camera.halfHeight : std::tan(0.5 * view.camera.yFov);
+        width_ = {half * aspect, half};
+        pixels_ = 0.5 * view.extent.y / half;
+    }
+    /// Whether some of the points' hull may be seen.
+    bool meets(std::span<const dvec3> points) const {
+        std::array<bool, 5> allOutside{true, true, true, true, true};
+        for (const dvec3& point : points) {
+            const dvec3 p(viewFromWorld_ * dvec4(point, 1));
+            const double scale = orthographic_ ? 1 : -p.z;
+            const dvec2 most = width_ * scale;
+            allOutside[0] &= p.x > most.x;
+            allOutside[1] &= -p.x > most.x;
+            allOutside[2] &= p.y > most.y;
+            allOutside[3] &= -p.y > most.y;
+            allOutside[4] &= p.z > 0;
+        }
+        return std::ranges::count(allOutside, true) == 0;
+    }
+    bool meets(dvec4 ball) const {
+        const dvec3 p(viewFromWorld_ * dvec4(dvec3(ball), 1));
+        if (p.z > ball.w) return false;
+        const dvec2 beyond = dvec2(std::abs(p.x), std::abs(p.y)) - width_ * (orthographic_ ? 1.0 : -p.z);
+        const dvec2 slope = orthographic_ ? dvec2(1) : sqrt(1.0 + width_ * width_);
+        return beyond.x <= ball.w * slope.x && beyond.y <= ball.w * slope.y;
+    }
+    /// Pixels that a metre at a point is high, the point no nearer than `least` metres.
+    double pixelsPerMetre(dvec3 point, double least) const { return orthographic_ ? pixels_ : pixels_ / std::max({distance(point, eye_), least, 1e-6}); }
+
+private:
+    dmat4 viewFromWorld_;
+    dvec3 eye_;
+    bool orthographic_;
+    dvec2 width_;
+    double pixels_;
+};
+
+/// The power of two that is nearest in proportion.
+uint32_t sideFor(double texels, double resolution, uint32_t usual, uint32_t largest) {
+    const double most = std::min<double>(largest, std::max(double(kLeastSide), usual * resolution));
+    const double wanted = std::clamp(texels * resolution, double(kLeastSide), most);
+    return std::min(1u << uint32_t(std::lround(std::log2(wanted))), std::bit_floor(uint32_t(most)));
+}
+
+/// The axes of a map that looks along `forward`: those of a camera, so that front faces look alike.
+void setAxes(ShadowFrustum& frustum, dvec3 forward) {
+    const dmat3 axes(lookAt(vec3(0), vec3(normalize(forward))));
+    frustum.right = axes[0];
+    frustum.down = -axes[1];
+    frustum.forward = -axes[2];
+}
+
+constexpr std::array kCubeAxes{dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 1, 0), dvec3(0, -1, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)};  // cubeFaceOf
+
+std::array<dvec3, 8> cornersOf(const Bounds& bounds) {
+    std::array<dvec3, 8> corners;
+    for (uint32_t i = 0; i < 8; ++i)
+        corners[i] = {i & 1 ? bounds.high.x : bounds.low.x, i & 2 ? bounds.high.y : bounds.low.y, i & 4 ? bounds.high.z : bounds.low.z};
+    return corners;
+}
+
+/// The atlas of at most so many texels, and so large that it holds `texels` if it can.
+uvec2 extentFor(uint64_t texels, uint64_t most, uint32_t largestSide) {
+    uvec2 extent(std::min(kUsualSide, std::bit_floor(largestSide)));
+    while (uint64_t(extent.x) * extent.y < texels) {
+        const uvec2 next = extent.x > extent.y ? uvec2(extent.x, 2 * extent.y) : uvec2(2 * extent.x, extent.y);
+        if (uint64_t(next.x) * next.y > most || next.x > largestSide) break;
+        extent = next;
+    }
+    while (uint64_t(extent.x) * extent.y > most) extent.x > extent.y ? extent.x /= 2 : extent.y /= 2;
+    return max(extent, uvec2(kLeastSide));
+}
+
+uint64_t texelsOf(uint32_t side) { return uint64_t(side) * side; }
+
+}  // namespace
+
+bool ShadowPlan::Asked::operator==(const Asked& other) const {
+    return view.camera == other.view.camera && view.extent == other.view.extent && settings == other.settings && version == other.version && largestSide == other.largestSide;
+}
+
+void ShadowPlan::forget() {
+    kept_.clear();
+    pages_ = PageAllocator(pages_.extent());
+    last_.reset();
+}
+
+void ShadowPlan::update(const Inputs& in) {
+    const Asked asked{in.view, in.settings, in.version, in.largestSide};
+    if (last_ == asked && stats_.waiting.empty()) {
+        dirty_.clear();
+        stats_.drawn = stats_.casterDraws = 0;
+        return;
+    }
+    last_.reset();  // an exception leaves the plan unfinished
+    stats_ = {};
+    maps_.clear();
+    for (auto& [key, kept] : kept_) kept.wanted = false;
+    collect(in);
+    fit(in);
+    placePages();
+    chooseDirty(in);
+    if (in.settings.onOverflow == OnOverflow::fail && !(stats_.lost.empty() && stats_.waiting.empty())) {
+        const ShadowStats::Without first = stats_.lost.empty() ? stats_.waiting.front() : stats_.lost.front();
+        forget();  // nothing of it will be drawn
+        throw Error(ErrorKind::limit, fmt::format("shadows: {} lights go without theirs, the first of them light {} \"{}\": {}", stats_.lost.size() + stats_.waiting.size(),
+                                                  first.light, in.lights[first.light].name, first.reason));
+    }
+    last_ = asked;
+}
+
+uint32_t ShadowPlan::mapsOf(const Light& light) {
+    if (light.type == LightType::directional) return kCascades;
+    return light.type == LightType::spot && light.outerConeAngle <= kWidestMap ? 1 : kShadowCubeFaces;
+}
+
+void ShadowPlan::collect(const Inputs& in) {
+    if (std::ranges::count(in.casters, true, &ShadowCaster::casts) == 0) return;
+    for (uint32_t i = 0; i < in.lights.size(); ++i) {
+        const Light& light = in.lights[i];
+        if (!light.castsShadows || light.color == vec3(0)) continue;
+        light.type == LightType::directional ? collectDirectional(in, i) : collectLocal(in, i);
+    }
+}
+
+void ShadowPlan::collectLocal(const Inputs& in, uint32_t index) {
+    const Light& light = in.lights[index];
+    const dvec3 position(light.positionWorld);
+    const SeenSpace seen(in.view);
+    double range = 0;  // how far there is anything
+    for (const dvec3 corner : cornersOf(in.boundsWorld)) range = std::max(range, distance(position, corner));
+    range = std::min(range, double(light.range));
+    const bool spot = light.type == LightType::spot;
+    const LightShape shape{light.positionWorld, spot ? vec3(normalize(dvec3(light.directionWorld))) : vec3(0, 0, 1), float(range), spot ? light.outerConeAngle : kHalfTurn};
+    if (range <= kShadowNear || !seen.meets(dvec4(boundingBall(shape)) * dvec4(1, 1, 1, 1.001))) return;
+    const uint32_t faces = mapsOf(light);
+    const bool cube = faces > 1;
+    const double metre = seen.pixelsPerMetre(position, range);
+    for (uint32_t face = 0; face < faces; ++face) {
+        ShadowFrustum frustum{.origin = position, .tangent = cube ? 1 : std::max(std::tan(double(light.outerConeAngle)), 1e-4), .depth = range};
+        setAxes(frustum, cube ? kCubeAxes[face] : dvec3(shape.axis));
+        const double cone = double(light.outerConeAngle) + std::acos(std::sqrt(1.0 / 3));  // a face lies within that angle of its axis
+        if (cube && spot && cone < kHalfTurn && dot(dvec3(shape.axis), frustum.forward) < std::cos(cone)) continue;
+        std::array<dvec3, 5> pyramid{position};
+        for (uint32_t i = 0; i < 4; ++i)
+            pyramid[i + 1] = position + range * (frustum.forward + frustum.tangent * ((i & 1 ? 1.0 : -1.0) * frustum.right + (i & 2 ? 1.0 : -1.0) * frustum.down));
+        if (!seen.meets(pyramid)) continue;
+        const double pixels = 2 * range * frustum.tangent * metre;
+        add(in, {.light = index, .face = face, .frustum = frustum, .pixels = pixels, .side = sideFor(pixels / kPixelsPerTexel, light.shadowResolution, kUsualSide, in.largestSide)});
+    }
+}
+
+// Cascades (Engel 2006, "Cascaded Shadow Maps"; where to split: Zhang et al. 2006, "Parallel-Split Shadow Maps"), each around a ball around its
+// part of what is seen, so that it does not change while the camera turns, and moved in steps of whole texels.
+void ShadowPlan::collectDirectional(const Inputs& in, uint32_t index) {
+    const Light& light = in.lights[index];
+    const Camera& camera = in.view.camera;
+    ShadowFrustum whole{.orthographic = true};
+    setAxes(whole, dvec3(light.directionWorld));
+    dvec3 low(HUGE_VAL), high(-HUGE_VAL);  // along right, down, forward
+    double farthest = 0;                   // along the view axis
+    const dmat4 viewFromWorld = inverse(dmat4(camera.worldFromView));
+    for (const dvec3 corner : cornersOf(in.boundsWorld)) {
+        const dvec3 p(dot(corner, whole.right), dot(corner, whole.down), dot(corner, whole.forward));
+        low = min(low, p);
+        high = max(high, p);
+        farthest = std::max(farthest, -(viewFromWorld * dvec4(corner, 1)).z);
+    }
+    const dvec3 margin = 1e-3 * (high - low) + 1e-3;
+    low -= margin;
+    high += margin;
+    if (farthest <= 0) return;
+    whole.depth = high.z - low.z;
+    const double nearest = camera.orthographic ? camera.zNear : std::max<double>(camera.zNear, farthest * 1e-3);
+    farthest = std::max(camera.orthographic ? std::min<double>(farthest, camera.zFar) : farthest, nearest * 1.001);
+    const double aspect = double(in.view.extent.x) / in.view.extent.y;
+    const double half = camera.orthographic ? camera.halfHeight : std::tan(0.5 * camera.yFov);
+    const double corner = half * std::sqrt(1 + aspect * aspect);  // of the picture, from its middle, at a distance of 1
+    const uint32_t side = sideFor(double(std::max(in.view.extent.x, in.view.extent.y)), light.shadowResolution, kSunSide, in.largestSide);
+    const uint32_t cascades = camera.orthographic ? 1 : kCascades;
+    double from = camera.orthographic ? nearest : 0;
+    for (uint32_t cascade = 0; cascade < cascades; ++cascade) {
+        const double share = double(cascade + 1) / cascades;
+        const double to = 0.6 * nearest * std::pow(farthest / nearest, share) + 0.4 * std::lerp(nearest, farthest, share);
+        // The smallest ball around the slice: in the middle, or around its far end where that is wider than the slice is deep.
+        double middle = 0.5 * (from + to), radius = 0;
+        if (camera.orthographic) {
+            radius = std::hypot(corner, 0.5 * (to - from));
+        } else {
+            middle = std::min(to, 0.5 * (from + to) * (1 + corner * corner));
+            radius = std::hypot(corner * to, to - middle);
+        }
+        const dvec3 center = dvec3(camera.worldFromView[3]) - middle * dvec3(camera.worldFromView[2]);
+        ShadowFrustum frustum = whole;
+        const bool all = radius >= 0.5 * std::max(high.x - low.x, high.y - low.y);
+        frustum.tangent = all ? 0.5 * std::max(high.x - low.x, high.y - low.y) : radius;
+        dvec2 at(0.5 * (low.x + high.x), 0.5 * (low.y + high.y));
+        if (!all) {
+            const double texel = 2 * frustum.tangent / (side - 2 * kBorder);
+            at = round(dvec2(dot(center, whole.right), dot(center, whole.down)) / texel) * texel;
+        }
+        frustum.origin = at.x * whole.right + at.y * whole.down + low.z * whole.forward;
+        add(in, {.light = index, .face = cascade, .frustum = frustum, .pixels = double(in.view.extent.y) / (1 + cascade), .side = side});
+        if (all) break;
+        from = to;
+    }
+}
+
+void ShadowPlan::add(const Inputs& in, PlannedMap map) {
+    Kept& kept = kept_[{map.light, map.face}];
+    kept.wanted = true;
+    const uint32_t group = in.lights[map.light].linkGroup;
+    const uint64_t light = signatureOf(map.frustum, group);
+    if (kept.casting == 0 || kept.lightSignature != light || kept.version != in.version) {
+        Signature casting;
+        kept.anyCaster = false;
+        for (uint32_t i = 0; i < in.casters.size(); ++i) {
+            if (!castsInto(in, map, i)) continue;
+            kept.anyCaster = true;
+            casting.add(i).add(in.casters[i].version);
+        }
+        kept.lightSignature = light;
+        kept.version = in.version;
+        kept.casting = casting.add(light).value();
+    }
+    if (!kept.anyCaster) map.side = 0;
+    maps_.push_back(std::move(map));
+}
+
+bool ShadowPlan::castsInto(const Inputs& in, const PlannedMap& map, uint32_t caster) {
+    const ShadowCaster& object = in.casters[caster];
+    return object.casts && sees(map.frustum, object.boundsWorld) && in.castsFor(in.lights[map.light].linkGroup, object.objectId);
+}
+
+// Maps get coarser until all fit; only if not even the coarsest do, lights go without, those first that are least to be seen.
+void ShadowPlan::fit(const Inputs& in) {
+    const uint64_t most = (uint64_t(in.settings.shadowMemory) << 20) / sizeof(float);
+    const uvec2 largest = extentFor(UINT64_MAX, most, in.largestSide);
+    const uint64_t capacity = uint64_t(largest.x) * largest.y;
+    const auto sideAt = [&](uint32_t side, uint32_t coarser) { return side == 0 ? 0 : std::min(std::max(side >> coarser, kLeastSide), std::min(largest.x, largest.y)); };
+    const auto texelsAt = [&](uint32_t coarser) {
+        uint64_t texels = 0;
+        for (const PlannedMap& map : maps_) texels += texelsOf(sideAt(map.side, coarser));
+        return texels;
+    };
+    uint32_t coarser = 0;
+    while (texelsAt(coarser) > capacity && coarser < 16) ++coarser;
+    stats_.coarser = coarser;
+    for (PlannedMap& map : maps_) map.side = sideAt(map.side, coarser);
+    uint64_t texels = texelsAt(coarser);
+    if (texels > capacity) {
+        std::map<uint32_t, double> pixels;
+        std::map<uint32_t, uint64_t> sizes;
+        for (const PlannedMap& map : maps_) {
+            pixels[map.light] = std::max(pixels[map.light], map.pixels);
+            sizes[map.light] += texelsOf(map.side);
+        }
+        std::vector<uint32_t> order;
+        for (const auto& [light, size] : sizes) order.push_back(light);
+        std::ranges::stable_sort(order, {}, [&](uint32_t light) { return pixels[light]; });
+        std::map<uint32_t, bool> goes;
+        for (const uint32_t light : order) {
+            if (texels <= capacity) break;
+            texels -= sizes[light];
+            goes[light] = true;
+            stats_.lost.push_back({light, fmt::format("the maps of all lights do not fit into {} MiB (shadow-memory), not at {} texels a side", in.settings.shadowMemory, kLeastSide)});
+        }
+        std::erase_if(maps_, [&](const PlannedMap& map) { return goes.contains(map.light); });
+    }
+    const uvec2 wanted = extentFor(texels, most, in.largestSide);
+    const uvec2 have = pages_.extent();
+    if (uint64_t(wanted.x) * wanted.y > uint64_t(have.x) * have.y || uint64_t(have.x) * have.y > most) {
+        kept_ = {};
+        pages_ = PageAllocator(wanted);
+        std::vector<PlannedMap> again = std::move(maps_);
+        maps_.clear();
+        for (PlannedMap& map : again) {
+            const uint32_t side = map.side;
+            add(in, std::move(map));
+            maps_.back().side = side;
+        }
+    }
+    stats_.texels = texels;
+}
+
+void ShadowPlan::placePages() {
+    const auto free = [&](Kept& kept) {
+        if (kept.page.side != 0) pages_.free(kept.page);
+        kept.page = {};
+        kept.drawn = 0;
+    };
+    std::vector<PlannedMap*> missing;
+    for (PlannedMap& map : maps_) {
+        Kept& kept = kept_.at({map.light, map.face});
+        // A page one size too large is as good, and moving closer and back again draws nothing anew.
+        if (kept.page.side != map.side && (kept.page.side != 2 * map.side || stats_.coarser > 0)) free(kept);
+        if (kept.page.side == 0 && map.side != 0) missing.push_back(&map);
+    }
+    std::ranges::stable_sort(missing, std::greater{}, &PlannedMap::side);
+    const auto allocateAll = [&] {
+        for (PlannedMap* map : missing) {
+            Kept& kept = kept_.at({map->light, map->face});
+            if (kept.page.side != 0) continue;
+            const std::optional<Page> page = pages_.allocate(map->side);
+            if (!page) return false;
+            kept.page = *page;
+        }
+        return true;
+    };
+    if (!allocateAll()) {
+        // First what this frame does not need goes; then everything is packed anew, by falling size, which leaves no gap.
+        for (auto& [key, kept] : kept_)
+            if (!kept.wanted) free(kept);
+        if (!allocateAll()) {
+            for (auto& [key, kept] : kept_) free(kept);
+            missing.clear();
+            for (PlannedMap& map : maps_)
+                if (map.side != 0) missing.push_back(&map);
+            std::ranges::stable_sort(missing, std::greater{}, &PlannedMap::side);
+            allocateAll();
+        }
+    }
+    std::erase_if(kept_, [](const auto& entry) { return !entry.second.wanted && entry.second.page.side == 0; });
+    for (PlannedMap& map : maps_) map.page = kept_.at({map.light, map.face}).page;
+}
+
+void ShadowPlan::chooseDirty(const Inputs& in) {
+    dirty_.clear();
+    std::vector<ShadowFrustum> asked;
+    for (const PlannedMap& map : maps_) asked.push_back(map.frustum);
+    const auto signature = [&](const PlannedMap& map, const Kept& kept) {
+        return Signature().add(kept.casting).add(map.page.first.x).add(map.page.first.y).add(map.page.side).add(uint32_t(in.settings.shadowCasters)).value();
+    };
+    for (uint32_t i = 0; i < maps_.size(); ++i) {
+        if (maps_[i].page.side == 0) continue;
+        ++stats_.maps;
+        const Kept& kept = kept_.at({maps_[i].light, maps_[i].face});
+        maps_[i].drawn = kept.drawn != 0;
+        if (kept.drawn == signature(maps_[i], kept)) continue;
+        dirty_.push_back(i);
+        if (maps_[i].drawn) maps_[i].frustum = kept.frustum;  // until it is drawn anew
+    }
+    std::ranges::stable_sort(dirty_, std::greater{}, [&](uint32_t i) { return maps_[i].pixels; });
+    if (const uint32_t most = in.settings.shadowRedraws; most != 0 && dirty_.size() > most) {
+        for (const uint32_t i : std::span(dirty_).subspan(most)) {
+            const uint32_t light = maps_[i].light;
+            if (std::ranges::count(stats_.waiting, light, &ShadowStats::Without::light) == 0)
+                stats_.waiting.push_back({light, fmt::format("its map waits to be drawn, as {} a frame are (shadow-redraws)", most)});
+        }
+        dirty_.resize(most);
+    }
+    for (const uint32_t i : dirty_) {
+        PlannedMap& map = maps_[i];
+        Kept& kept = kept_.at({map.light, map.face});
+        map.frustum = kept.frustum = asked[i];
+        for (uint32_t caster = 0; caster < in.casters.size(); ++caster)
+            if (castsInto(in, map, caster)) map.casters.push_back(caster);
+        kept.drawn = signature(map, kept);
+        map.drawn = true;
+        ++stats_.drawn;
+    }
+    std::vector<uint32_t> lights;
+    for (const PlannedMap& map : maps_)
+        if (lights.empty() || lights.back() != map.light) lights.push_back(map.light);
+    stats_.lights = uint32_t(lights.size());
+}
+
+namespace {
+
+/// Half the width of what the page shows, at a distance of 1: what the light needs, and the border for taps.
+double halfWidth(const PlannedMap& map) {
+    const double side = map.page.side, border = std::min(kBorder, side / 8);
+    return map.frustum.tangent * side / (side - 2 * border);
+}
+
+/// From the light (axes of world space) to the clip space of the page. \param origin of positions, world space
+dmat4 clipFromLight(const PlannedMap& map, dvec3 origin) {
+    const ShadowFrustum& f = map.frustum;
+    const double half = halfWidth(map);
+    dmat4 rows(0);  // transposed below
+    rows[0] = dvec4(f.right / half, 0);
+    rows[1] = dvec4(f.down / half, 0);
+    if (f.orthographic) {
+        rows[2] = dvec4(-f.forward / f.depth, 1);
+        rows[3] = dvec4(0, 0, 0, 1);
+    } else {
+        rows[2] = dvec4(0, 0, 0, kShadowNear);
+        rows[3] = dvec4(f.forward, 0);
+    }
+    dmat4 move(1);
+    move[3] = dvec4(origin - f.origin, 1);
+    return transpose(rows) * move;
+}
+
+}  // namespace
+
+shared::ShadowPush ShadowPlan::push(const PlannedMap& map) {
+    const vec3 origin(map.frustum.origin);
+    return {mat4(clipFromLight(map, dvec3(origin))), origin};
+}
+
+shared::ShadowMap ShadowPlan::constants(const PlannedMap& map, float softness, dvec3 eyeWorld) {
+    shared::ShadowMap result{};
+    if (map.page.side == 0 || !map.drawn) return result;
+    const double side = map.page.side;
+    dmat4 texelsFromClip(1);
+    texelsFromClip[0][0] = texelsFromClip[1][1] = 0.5 * side;
+    texelsFromClip[3] = dvec4(dvec2(map.page.first) + 0.5 * side, 0, 1);
+    result.warp = mat4(texelsFromClip * clipFromLight(map, map.frustum.orthographic ? eyeWorld : dvec3(vec3(map.frustum.origin))));
+    result.low = vec2(map.page.first) + 0.5f;
+    result.high = vec2(map.page.first) + float(side) - 0.5f;
+    result.texel = float(2 * halfWidth(map) / side);
+    result.softness = softness;
+    return result;
+}
+
+}  // namespace luciole::render
