@@ -178,6 +178,8 @@ struct Light {
     float shadowResolution = 1;   ///< [1/16, 16]: scales the side of its shadow maps against those of others
 };
 
+inline constexpr float kShadowNear = 0.01f;  ///< metres along x, y and z; what is nearer to a light casts no shadow in it
+
 /// A closed surface that bounds a light of any type, range and cone apart (Calver 2003, "Concave Light Volume"). Inside
 /// are the points about which the surface winds: whose winding number is not 0, whichever way it is oriented. Each edge is run
 /// through by its triangles as often one way as the other, counting vertices at equal positions as one.

@@ -9,6 +9,7 @@ LightSource::LightSource(const Scene& scene, const FunctionTables& tables, const
     : type_(light.type),
       contribution_(light.contribution),
       infiniteViewer_(light.infiniteViewer && light.type == LightType::directional),
+      castsShadows_(light.castsShadows),
       position_(light.positionWorld),
       direction_(normalize(dvec3(light.directionWorld))),
       color_(light.color),
@@ -19,6 +20,7 @@ LightSource::LightSource(const Scene& scene, const FunctionTables& tables, const
       attenuation_(light.attenuation == kNone ? nullptr : &tables.ofDistance(light.attenuation)),
       falloff_(light.falloff == kNone ? nullptr : &tables.ofCosine(light.falloff)),
       litObjects_(light.linkGroup == kNone ? nullptr : &scene.linkGroups[light.linkGroup].litObjects),
+      castingObjects_(light.linkGroup == kNone ? nullptr : &scene.linkGroups[light.linkGroup].castingObjects),
       volume_(light.volume == kNone ? nullptr : &volumes[light.volume]) {}
 
 std::optional<Arrival> LightSource::arrivalAt(dvec3 positionWorld) const {
@@ -40,8 +42,20 @@ std::optional<Arrival> LightSource::unboundedArrivalAt(dvec3 positionWorld) cons
     return Arrival{L, color_ * attenuation(distance) * falloff(cosine)};
 }
 
-bool LightSource::touches(uint32_t objectId) const {
-    return !litObjects_ || (objectId < litObjects_->size() && (*litObjects_)[objectId]);
+namespace {
+
+bool holds(const std::vector<bool>* objects, uint32_t objectId) { return !objects || (objectId < objects->size() && (*objects)[objectId]); }
+
+}  // namespace
+
+bool LightSource::touches(uint32_t objectId) const { return holds(litObjects_, objectId); }
+bool LightSource::isCastBy(uint32_t objectId) const { return holds(castingObjects_, objectId); }
+
+LightSource::Path LightSource::pathFrom(dvec3 positionWorld) const {
+    if (type_ == LightType::directional) return {-direction_, HUGE_VAL};
+    const dvec3 toLight = position_ - positionWorld;
+    const dvec3 along = abs(toLight);
+    return {toLight, 1 - kShadowNear / std::max({along.x, along.y, along.z})};
 }
 
 // glTF KHR_lights_punctual, "Range Property". A function replaces it: Calver 2003, "Shaped Lights".

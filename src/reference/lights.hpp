@@ -20,6 +20,15 @@ public:
     std::optional<Arrival> arrivalAt(dvec3 positionWorld) const;
 
     bool touches(uint32_t objectId) const;
+    bool castsShadows() const { return castsShadows_; }
+    /// Whether the object keeps this light off what lies behind it, if its material does.
+    bool isCastBy(uint32_t objectId) const;
+    /// The way from a point to the light, or to where nothing is too near to it to cast: at most t = 1 of `path`; directional: infinitely far.
+    struct Path {
+        dvec3 path;
+        double tMax;
+    };
+    Path pathFrom(dvec3 positionWorld) const;
     LightContribution contribution() const { return contribution_; }
     bool infiniteViewer() const { return infiniteViewer_; }
 
@@ -31,12 +40,12 @@ private:
 
     LightType type_;
     LightContribution contribution_;
-    bool infiniteViewer_;
+    bool infiniteViewer_, castsShadows_;
     dvec3 position_, direction_, color_;
     double range_, rangeSquared_;
     double cosInner_, cosOuter_;
     const FunctionTable *attenuation_, *falloff_;  ///< null: glTF's
-    const std::vector<bool>* litObjects_;          ///< null: all
+    const std::vector<bool>*litObjects_, *castingObjects_;  ///< null: all
     const Volume* volume_;                         ///< null: everywhere
 };
 

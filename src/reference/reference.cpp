@@ -77,6 +77,7 @@ public:
           volumes_(volumesOf(scene)),
           lights_(lightSources(scene, tables_, volumes_)),
           anyBlends_(std::ranges::count(scene.materials, AlphaMode::blend, &Material::alphaMode) > 0),
+          shadows_(settings.shadows != Shadows::off),
           bounce_(bouncingLight(scene.lights, settings)) {
         constexpr uint32_t kFiner = 4;  // a side: patches are small against what they light, and the picture does not depend on them
         if (bounce_) patches_ = patchesOf(scene, visibility_, surfaces_, scene.lights[*bounce_], lights_[*bounce_], kFiner * settings.bounceGrid);
@@ -136,6 +137,7 @@ private:
             ++pixel.lightCount;
             ++pixel.usefulEvaluations;
             pixel.fingerprint += shared::fingerprint(i);
+            if (shadows_ && light.castsShadows() && isShadowed(hit, surface.P, light)) continue;
             const bool farEye = light.infiniteViewer() && surface.equation == LightEquation::shaped;
             pixel.radiance += reflectedLight(surface, farEye ? rays_.backwards() : V, *arrival, light.contribution());
         }
@@ -145,6 +147,28 @@ private:
         return pixel;
     }
 
+    /// Whether something keeps the light off a point: a ray to the light meets a triangle that casts shadows, and that rises above the plane
+    /// of the triangle that the point lies on, by more than rounding.
+    bool isShadowed(const Hit& receiver, dvec3 P, const LightSource& light) const {
+        const auto [path, tMax] = light.pathFrom(P);
+        if (!(tMax > 0)) return false;
+        const auto ground = visibility_.triangleWorld(receiver.object, receiver.triangle);
+        dvec3 up = cross(ground[1] - ground[0], ground[2] - ground[0]);
+        if (dot(up, path) < 0) up = -up;
+        const double slack = 1e-6 * length(up) * std::max(length(P), length(ground[0]));
+        const auto keepsOff = [&](const Hit& hit) {
+            if (hit.object == receiver.object && hit.triangle == receiver.triangle) return false;
+            const Object& object = scene_.objects[hit.object];
+            const Material& material = scene_.materials[object.material];
+            if (!material.castsShadows || material.alphaMode == AlphaMode::blend || !light.isCastBy(object.objectId)) return false;
+            const auto rises = [&](dvec3 corner) { return dot(up, corner - P) > slack; };
+            if (std::ranges::none_of(visibility_.triangleWorld(hit.object, hit.triangle), rises)) return false;
+            const Footprint sharp{.weights = dvec3(1 - hit.u - hit.v, hit.u, hit.v), .dx = dvec3(0), .dy = dvec3(0)};
+            return material.alphaMode != AlphaMode::mask || surfaces_.isThere(hit, sharp);
+        };
+        return visibility_.isBlocked(P, path, tMax, keepsOff);
+    }
+
     const Scene& scene_;
     CameraRays rays_;
     Visibility visibility_;
@@ -152,7 +176,7 @@ private:
     Surfaces surfaces_;
     std::vector<Volume> volumes_;
     std::vector<LightSource> lights_;
-    bool anyBlends_;
+    bool anyBlends_, shadows_;
     std::optional<uint32_t> bounce_;  ///< the light that bounces
     std::vector<Patch> patches_;
 };

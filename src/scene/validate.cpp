@@ -218,6 +218,8 @@ void checkLight(const Element& element, const Light& light, const Scene& scene) 
     }
     element.optionalIndex("falloff", light.falloff, scene.functions.size());
     element.optionalIndex("linkGroup", light.linkGroup, scene.linkGroups.size());
+    element.within("shadowSoftness", light.shadowSoftness, 0, 4);
+    element.within("shadowResolution", light.shadowResolution, 1.0f / 16, 16);
     element.optionalIndex("volume", light.volume, scene.lightVolumes.size());
 }
 

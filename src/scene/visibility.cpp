@@ -81,6 +81,7 @@ struct Visibility::Impl {
     bool adjoin(const Hit& a, const Hit& b, dvec3 direction) const;
     bool isEmpty() const { return low.x > high.x; }
     double startOf(dvec3 origin, dvec3 direction, double tMin) const;
+    RTCRay rayOf(dvec3 origin, dvec3 direction, double tMin) const;
 };
 
 /// What one query carries through Embree, which hands back a pointer to the base.
@@ -88,7 +89,8 @@ struct Visibility::Impl::Query : QueryContext {
     const Impl* impl;
     const Accept* accept;
     dvec3 origin, direction;
-    double tMin;
+    double tMin, tMax = HUGE_VAL;
+    bool backFaces = false;  ///< of single-sided materials are hit, too
     std::optional<Hit> best;
 };
 
@@ -105,8 +107,8 @@ void Visibility::Impl::filterHit(const RTCFilterFunctionNArguments* arguments) {
 }
 
 bool Visibility::Impl::isThere(const Hit& hit, const Query& query) const {
-    if (hit.t < query.tMin) return false;
-    if (!hit.frontFace && !scene.materials[scene.objects[hit.object].material].doubleSided) return false;
+    if (hit.t < query.tMin || hit.t > query.tMax) return false;
+    if (!hit.frontFace && !query.backFaces && !scene.materials[scene.objects[hit.object].material].doubleSided) return false;
     return !*query.accept || (*query.accept)(hit);
 }
 
@@ -135,6 +137,7 @@ SceneHandle Visibility::Impl::meshScene(const Mesh& mesh) const {
         rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                                    3 * sizeof(uint32_t), mesh.indices.size() / 3);
         rtcSetGeometryIntersectFilterFunction(geometry.get(), filterHit);
+        rtcSetGeometryOccludedFilterFunction(geometry.get(), filterHit);
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometry(result.get(), geometry.get());
     }
@@ -206,6 +209,23 @@ double Visibility::Impl::startOf(dvec3 origin, dvec3 direction, double tMin) con
     return entry - slack / length(direction);
 }
 
+RTCRay Visibility::Impl::rayOf(dvec3 origin, dvec3 direction, double tMin) const {
+    const vec3 from = vec3(origin + startOf(origin, direction, tMin) * direction);
+    const vec3 along = vec3(normalize(direction));
+    return {.org_x = from.x,
+            .org_y = from.y,
+            .org_z = from.z,
+            .tnear = 0,
+            .dir_x = along.x,
+            .dir_y = along.y,
+            .dir_z = along.z,
+            .time = 0,
+            .tfar = INFINITY,
+            .mask = ~0u,
+            .id = 0,
+            .flags = 0};
+}
+
 Visibility::Visibility(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 Visibility::~Visibility() = default;
 Visibility::Visibility(Visibility&&) noexcept = default;
@@ -213,22 +233,9 @@ Visibility& Visibility::operator=(Visibility&&) noexcept = default;
 
 std::optional<Hit> Visibility::closest(dvec3 origin, dvec3 direction, double tMin, const Accept& accept) const {
     if (impl_->isEmpty()) return std::nullopt;
-    Impl::Query query{{}, impl_.get(), &accept, origin, direction, tMin, std::nullopt};
-    const vec3 from = vec3(origin + impl_->startOf(origin, direction, tMin) * direction);
-    const vec3 along = vec3(normalize(direction));
+    Impl::Query query{{}, impl_.get(), &accept, origin, direction, tMin};
     RTCRayHit ray{};
-    ray.ray = {.org_x = from.x,
-               .org_y = from.y,
-               .org_z = from.z,
-               .tnear = 0,
-               .dir_x = along.x,
-               .dir_y = along.y,
-               .dir_z = along.z,
-               .time = 0,
-               .tfar = INFINITY,
-               .mask = ~0u,
-               .id = 0,
-               .flags = 0};
+    ray.ray = impl_->rayOf(origin, direction, tMin);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -242,6 +249,23 @@ std::optional<Hit> Visibility::closest(dvec3 origin, dvec3 direction, double tMi
     rtcIntersect1(impl_->world.get(), &query, &ray);
 #endif
     return query.best;
+}
+
+bool Visibility::isBlocked(dvec3 origin, dvec3 direction, double tMax, const Accept& accept) const {
+    if (impl_->isEmpty()) return false;
+    Impl::Query query{{}, impl_.get(), &accept, origin, direction, 0, tMax, true};
+    RTCRay ray = impl_->rayOf(origin, direction, 0);
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query;
+    rtcOccluded1(impl_->world.get(), &ray, &arguments);
+#else
+    rtcInitIntersectContext(&query);
+    rtcOccluded1(impl_->world.get(), &query, &ray);
+#endif
+    return query.best.has_value();
 }
 
 std::vector<Hit> Visibility::allBetween(dvec3 origin, dvec3 direction, double tMin, double tMax,

@@ -49,6 +49,10 @@ public:
     /// \param accept called for candidates in no particular order; empty: everything is accepted
     std::optional<Hit> closest(dvec3 origin, dvec3 direction, double tMin = 0, const Accept& accept = {}) const;
 
+    /// Whether `accept` accepts a hit with 0 <= t <= tMax; of single-sided materials, too, both faces block.
+    /// \param origin, direction, accept as for `closest`
+    bool isBlocked(dvec3 origin, dvec3 direction, double tMax, const Accept& accept) const;
+
     /// All hits with tMin <= t <= tMax that `closest` could find, the farthest first; of those that coincide, the last
     /// one drawn is last. The triangles of one surface that meet in an edge or a vertex on the ray are hit once.
     std::vector<Hit> allBetween(dvec3 origin, dvec3 direction, double tMin, double tMax,

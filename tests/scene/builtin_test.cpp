@@ -8,6 +8,8 @@
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
 
+#include "scene/builtin/hall.hpp"
+#include "scene/visibility.hpp"
 #include "support.hpp"
 
 using namespace luciole;
@@ -235,6 +237,26 @@ TEST_CASE("builtin:hall: no light is inside something solid") {
             CHECK(hit.found());
             CHECK(hit.front);
         }
+}
+
+TEST_CASE("builtin: nothing that casts shadows encloses a lamp, or stands before the moon") {
+    for (const char* uri : {"builtin:hall?lights=255", "builtin:fireflies?lights=100", "builtin:materials"}) {
+        const Scene scene = makeBuiltin(uri);
+        const Visibility visibility(scene);
+        const auto casts = [&](const Hit& hit) { return scene.materials[scene.objects[hit.object].material].castsShadows; };
+        for (const Light& light : scene.lights) {
+            INFO(uri << ", " << light.name);
+            if (light.type == LightType::directional) {
+                const dvec3 lawn(0, 8, 2);  // above all that stands there
+                CHECK_FALSE(visibility.isBlocked(lawn, -dvec3(light.directionWorld), HUGE_VAL, casts));
+                continue;
+            }
+            int blocked = 0;  // a firefly may sit on a blade of grass
+            for (const dvec3 axis : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)})
+                for (const double side : {-1.0, 1.0}) blocked += visibility.isBlocked(light.positionWorld, side * axis, 1.5 * hall::kLampRadius, casts);
+            CHECK(blocked <= 2);
+        }
+    }
 }
 
 TEST_CASE("builtin:materials shows every kind of dot-product function, from plastic to metal") {

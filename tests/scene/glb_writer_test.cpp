@@ -310,11 +310,13 @@ TEST_CASE("glb: what glTF can't say is approximated and reported in one line eac
                     .attenuation = 1,
                     .falloff = 1,
                     .contribution = LightContribution::diffuseOnly,
-                    .linkGroup = 0};
+                    .linkGroup = 0,
+                    .castsShadows = false};
+    scene.materials[1].castsShadows = false;
     scene.lights = {odd, odd, odd};
     const Glb glb = roundTrip(scene, "losses");
-    // Cones, attenuation, falloff, contribution, link group; shaped, checker; ambience, exposure.
-    CHECK(glb.losses.size() == 9);
+    // Cones, attenuation, falloff, contribution, link group, shadows; shaped, checker, no shadow; ambience, exposure.
+    CHECK(glb.losses.size() == 11);
     const Material& shaped = glb.readBack.materials[0];
     CHECK(shaped.metallic == 0.75f);
     CHECK(shaped.roughness == doctest::Approx(std::pow(2.0 / 32, 0.25)));

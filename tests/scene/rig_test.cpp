@@ -110,6 +110,9 @@ TEST_CASE("rig: every key of a spot, a directional and scattered lights arrives"
     CHECK(key.contribution == LightContribution::specularOnly);
     CHECK(scene.linkGroups[key.linkGroup].name == "cloth");
     CHECK(scene.lightVolumes[key.volume].name == "spike");
+    CHECK_FALSE(key.castsShadows);
+    CHECK(key.shadowSoftness == 0.5f);
+    CHECK(key.shadowResolution == 4);
 
     CHECK(scene.lights[2].directionWorld == vec3(0, -1, 0));
     CHECK(scene.lights[2].infiniteViewer);
@@ -160,6 +163,7 @@ TEST_CASE("rig: every key of a changed and a new material arrives") {
     CHECK(tiles.normalScale == 2);
     CHECK(tiles.occlusionStrength == 0.5f);
     CHECK(tiles.doubleSided);
+    CHECK_FALSE(tiles.castsShadows);
     CHECK(tiles.alphaMode == AlphaMode::mask);
     CHECK(tiles.alphaCutoff == 0.25f);
     CHECK(scene.objects[0].material == 0);
@@ -322,14 +326,14 @@ TEST_CASE("rig: a light volume of a name that exists is replaced in place") {
     CHECK(scene.lights[1].volume == 1);
 }
 
-TEST_CASE("rig: the objects that cast shadows are those that are lit unless the group says otherwise") {
+TEST_CASE("rig: all objects cast shadows, lit or not, unless the group says otherwise") {
     const auto group = [](const std::string& keys) {
         return rigged(R"({"linkGroups": [{"name": "g")" + keys + "}]}").linkGroups[0];
     };
     using Ids = std::vector<bool>;
     CHECK(group("").castingObjects == Ids{true, true, true});
-    CHECK(group(R"(, "exclude": "floor")").castingObjects == Ids{true, true, false});
-    CHECK(group(R"(, "exclude": "floor", "castExclude": "*left")").castingObjects == Ids{false, true, false});
+    CHECK(group(R"(, "exclude": "floor")").castingObjects == Ids{true, true, true});
+    CHECK(group(R"(, "exclude": "floor", "castExclude": "*left")").castingObjects == Ids{false, true, true});
     CHECK(group(R"(, "exclude": "floor", "castInclude": ["floor", "*left"])").castingObjects == Ids{true, false, true});
     CHECK(group(R"(, "include": "floor", "castInclude": "*", "castExclude": "floor")").castingObjects ==
           Ids{true, true, false});

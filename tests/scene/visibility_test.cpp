@@ -42,6 +42,20 @@ TEST_CASE("visibility: back faces are there for double-sided materials only") {
     CHECK_FALSE(hit->frontFace);
 }
 
+TEST_CASE("visibility: a ray is blocked from either side, within its length only, and by what the caller accepts") {
+    const Scene scene = sceneOf(quad(), {});
+    const Visibility visibility(scene);
+    const auto all = [](const Hit&) { return true; };
+    CHECK(visibility.isBlocked({0.1, 0.2, 1}, {0, 0, -1}, 1.0000001, all));
+    CHECK(visibility.isBlocked({0.1, 0.2, -1}, {0, 0, 1}, 1.0000001, all));
+    CHECK_FALSE(visibility.isBlocked({0.1, 0.2, 1}, {0, 0, -1}, 0.9999999, all));
+    CHECK_FALSE(visibility.isBlocked({0.1, 0.2, -1e-9}, {0, 0, -1}, HUGE_VAL, all));
+    CHECK_FALSE(visibility.isBlocked({0.1, 0.2, 1}, {0, 0, -1}, 2, [](const Hit&) { return false; }));
+    CHECK_FALSE(visibility.isBlocked({1.1, 0.2, 1}, {0, 0, -1}, 2, all));
+    const Scene empty;
+    CHECK_FALSE(Visibility(empty).isBlocked({0, 0, 1}, {0, 0, -1}, 2, all));
+}
+
 TEST_CASE("visibility: a mirrored object is seen from the side where its normals point") {
     const Scene scene = sceneOf(quad(), {}, glm::scale(mat4(1), vec3(-1, 1, 1)));
     const Visibility visibility(scene);

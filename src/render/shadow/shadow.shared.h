@@ -6,7 +6,8 @@ SHARED_BEGIN
 
 // One shadow map: a page of the atlas and how to get there. Set 0, kFrameShadowMaps.
 struct ShadowMap {
-    mat4 warp;       // from shading space, with the light (directional: the eye) at the origin, to (u, v, depth, 1) * w; u and v in texels
+    mat4 warp;       // from shading space, with the light (directional: the eye) at the origin, to (u, v, depth, 1) * w; u and v in texels.
+                     // Depth is reversed: kShadowNear / w of lights that are somewhere, else from 1 at the first object to 0 behind the last
     vec2 low;        // of u and v: the centres of the page's outermost texels
     vec2 high;
     float texel;     // metres, the side of a texel at w = 1; 0: nothing keeps light off here
@@ -16,9 +17,6 @@ struct ShadowMap {
 // Of each light of the scene: how many maps it has and, in the bits above, its first one. Set 0, kFrameShadowedLights.
 const uint kShadowCountBits = 3u;
 const uint kShadowCubeFaces = 6u;  // of a point light, or of a spot too wide for one map
-
-// Depth is reversed: near / w of lights that are somewhere, else from 1 at the first object to 0 behind the last.
-const float kShadowNear = 0.01f;   // metres; what is nearer to a light casts no shadow
 
 // How far from where a surface is its taps may be, in texels at softness 1, beyond the half texel that every tap may be off.
 const float kJitteredReach = 0.8f;

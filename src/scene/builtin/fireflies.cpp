@@ -35,9 +35,11 @@ Material matte(const char* name, vec3 color, float roughness = 0.9f) {
     return {.name = name, .baseColor = vec4(color, 1), .metallic = 0, .roughness = roughness};
 }
 
+/// Of what the garden is set in: no light shines on it, and it keeps none off.
 Material unlit(const char* name, vec3 color = vec3(1)) {
     Material material = matte(name, color);
     material.equation = LightEquation::unlit;
+    material.castsShadows = false;
     return material;
 }
 
@@ -66,6 +68,7 @@ void addSetting(Scene& scene, const Random& random) {
     const vec3 moon = 84.0f * glm::normalize(vec3(0.2f, 0.215f, -1));
     Material glowing = matte("moon", vec3(0));
     glowing.emissive = vec3(1.5f, 1.42f, 1.2f);
+    glowing.castsShadows = false;
     addObject(scene, "moon", addMesh(scene, shapes::sphere(1.15f, 32, 16), "moon"), addMaterial(scene, glowing),
               placed(moon));
 }
@@ -73,6 +76,7 @@ void addSetting(Scene& scene, const Random& random) {
 void addStars(Scene& scene, Random random) {
     Material glowing = matte("star", vec3(0));
     glowing.emissive = vec3(0.8f, 0.85f, 1);
+    glowing.castsShadows = false;
     const uint32_t star = addMesh(scene, shapes::bead(1), "star"), material = addMaterial(scene, glowing);
     for (int i = 0; i < 220; ++i) {
         const float longitude = between(random, -1.1, 1.1), latitude = between(random, 0.12, 0.75);
@@ -209,6 +213,7 @@ void addBuilt(Scene& scene) {
               addMaterial(scene, matte("granite", {0.3f, 0.285f, 0.265f}, 0.8f)), place);
     Material paper = matte("lantern paper", {0.6f, 0.5f, 0.35f});
     paper.emissive = {1.25f, 0.5f, 0.12f};
+    paper.castsShadows = false;  // it lets the flame through
     addObject(scene, "lantern paper", addMesh(scene, made.paper, "lantern paper"), addMaterial(scene, paper), place);
     addObject(scene, "bridge", addMesh(scene, bridge(4.6f), "bridge"),
               addMaterial(scene, matte("vermilion", {0.42f, 0.06f, 0.03f}, 0.5f)),
@@ -253,6 +258,7 @@ void addFireflies(Scene& scene, uint32_t count, Random random) {
     for (size_t i = 0; i < kColors.size(); ++i) {
         Material material = matte("firefly", vec3(0));
         material.emissive = 1.9f * kColors[i];
+        material.castsShadows = false;  // the light is inside
         glows[i] = addMaterial(scene, material);
     }
     // However many there are, the garden stays about as bright.

@@ -110,6 +110,7 @@ void addHallLights(Scene& scene, const HallOptions& options, int bays, const std
     std::array<uint32_t, kPalette.size()> glows{};
     for (size_t i = 0; lamps > 0 && i < kPalette.size(); ++i)
         glows[i] = addMaterial(scene, {.name = fmt::format("glow {}", i),
+                                       .castsShadows = false,  // the light is inside
                                        .baseColor = vec4(0, 0, 0, 1),
                                        .metallic = 0,
                                        .emissive = 1.8f * kPalette[i]});

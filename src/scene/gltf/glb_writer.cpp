@@ -269,6 +269,7 @@ Json Writer::light(const Light& light) {
     if (light.infiniteViewer) losses.add("infinite viewers of lights left out", light.name);
     if (light.linkGroup != kNone) losses.add("link groups of lights left out", light.name);
     if (light.volume != kNone) losses.add("volumes of lights left out", light.name);
+    if (!light.castsShadows || light.shadowSoftness != 1 || light.shadowResolution != 1) losses.add("settings of lights' shadows left out", light.name);
     return json;
 }
 
@@ -368,6 +369,7 @@ Json Writer::material(const Material& source) {
     if (m.alphaMode == AlphaMode::mask) json.update({{"alphaMode", "MASK"}, {"alphaCutoff", m.alphaCutoff}});
     if (m.alphaMode == AlphaMode::blend) json["alphaMode"] = "BLEND";
     if (m.doubleSided) json["doubleSided"] = true;
+    if (!m.castsShadows) losses.add("materials that cast no shadows written as if they did", m.name);
     if (m.equation == LightEquation::unlit) {
         json["extensions"]["KHR_materials_unlit"] = Json::object();
         extensions_.insert("KHR_materials_unlit");

@@ -13,10 +13,11 @@
 namespace luciole::rig {
 namespace {
 
-constexpr std::array<std::string_view, 16> kLightKeys{"type",           "position",    "direction", "target",
-                                                      "color",          "intensity",   "range",     "innerConeAngle",
-                                                      "outerConeAngle", "attenuation", "falloff",   "contribution",
-                                                      "infiniteViewer", "linkGroup",   "volume",    "name"};
+constexpr std::array<std::string_view, 19> kLightKeys{"type",           "position",       "direction",    "target",
+                                                      "color",          "intensity",      "range",        "innerConeAngle",
+                                                      "outerConeAngle", "attenuation",    "falloff",      "contribution",
+                                                      "infiniteViewer", "linkGroup",      "volume",       "name",
+                                                      "castsShadows",   "shadowSoftness", "shadowResolution"};
 
 LightType lightType(const JsonNode& node) { return LightType(node.choice({"directional", "point", "spot"})); }
 
@@ -83,6 +84,9 @@ void setLight(const JsonNode& entry, Light& light, Scene& scene) {
     if (const auto v = entry.find("infiniteViewer")) light.infiniteViewer = v->boolean();
     if (const auto v = entry.find("linkGroup")) light.linkGroup = indexOrNone(*v, "link group", scene.linkGroups);
     if (const auto v = entry.find("volume")) light.volume = indexOrNone(*v, "light volume", scene.lightVolumes);
+    if (const auto v = entry.find("castsShadows")) light.castsShadows = v->boolean();
+    if (const auto v = entry.find("shadowSoftness")) light.shadowSoftness = float(v->number(0, 4));
+    if (const auto v = entry.find("shadowResolution")) light.shadowResolution = float(v->number(1.0 / 16, 16));
 }
 
 /// An attenuation function is read at distance / range.

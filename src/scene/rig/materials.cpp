@@ -11,7 +11,8 @@ namespace luciole::rig {
 namespace {
 
 constexpr size_t kShapedKeys = 8;  ///< the last of kMaterialKeys: those of the shaped equation
-constexpr std::array<std::string_view, 21> kMaterialKeys{
+constexpr std::array<std::string_view, 22> kMaterialKeys{
+    "castsShadows",
     "equation",    "surface",   "proceduralColor", "proceduralScale", "baseColor",
     "metallic",    "roughness", "emissive",        "normalScale",     "occlusionStrength",
     "doubleSided", "alphaMode", "alphaCutoff",     "diffuseFunction", "specularFunction",
@@ -73,6 +74,7 @@ void setMaterial(const JsonNode& entry, Material& material, Scene& scene) {
     if (const auto v = entry.find("normalScale")) material.normalScale = float(v->number());
     if (const auto v = entry.find("occlusionStrength")) material.occlusionStrength = float(v->number(0, 1));
     if (const auto v = entry.find("doubleSided")) material.doubleSided = v->boolean();
+    if (const auto v = entry.find("castsShadows")) material.castsShadows = v->boolean();
     if (const auto v = entry.find("alphaMode")) material.alphaMode = AlphaMode(v->choice({"opaque", "mask", "blend"}));
     if (const auto v = entry.find("alphaCutoff")) material.alphaCutoff = float(v->number(0));
 }

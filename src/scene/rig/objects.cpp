@@ -48,7 +48,7 @@ std::vector<bool> byId(const std::vector<bool>& chosen, const Scene& scene) {
 LinkGroup resolve(const JsonNode& entry, Scene& scene) {
     const std::vector<bool> all(scene.objects.size(), true);
     const std::vector<bool> lit = chosenObjects(entry, "include", "exclude", all, scene);
-    const std::vector<bool> casting = chosenObjects(entry, "castInclude", "castExclude", lit, scene);
+    const std::vector<bool> casting = chosenObjects(entry, "castInclude", "castExclude", all, scene);
     LinkGroup group{entry.at("name").string(), byId(lit, scene), byId(casting, scene)};
     warnOfSharedIds(group, lit, scene);
     return group;
