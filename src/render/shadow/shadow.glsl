@@ -77,11 +77,14 @@ float unshadowed(LightConstants light, vec3 P, vec3 N, vec3 L) {
     const ShadowMap map = shadowMaps[i];
     if (map.texel == 0.0) return 1.0;
     vec4 pinShadow = map.warp * vec4(Q, 1);
-    // Towards the light by what rounding and the G-buffer may have moved the surface, and off the surface by as much as brings its plane before
-    // the farthest tap, on the side that the light is on.
+    // Towards the light by what rounding and the G-buffer may have moved the surface, and off the surface, on the side that the light is on, by
+    // as much as brings it before its own plane at the farthest texel that is asked (Holbert 2011, "Normal Offset Shadows"). Beyond a crease,
+    // that one belongs to another plane, whose slope did not bias it enough.
     const float texel = map.texel * max(pinShadow.w, 0.0);
     const float reach = usesLights(kShadowsSmooth) ? kSmoothReach : usesLights(kShadowsJittered) ? kJitteredReach : 0.0;
-    const vec3 off = N * (1.5 * reach * map.softness * texel * (dot(N, L) < 0.0 ? -1.0 : 1.0));
+    const vec3 axis = directional ? L : vec3(map.warp[0].w, map.warp[1].w, map.warp[2].w);  // the map's: w is how far along it
+    const float slant = length(cross(N, axis));
+    const vec3 off = N * (kNormalOffset * (0.5 + reach * map.softness) * texel * slant * (dot(N, L) < 0.0 ? -1.0 : 1.0));
     pinShadow += map.warp * vec4(L * (kShadowBias * texel + surfaceSlack(P)) + off, 0);
     const vec2 at = pinShadow.xy / max(pinShadow.w, 1e-9);
     if (usesLights(kShadowsSmooth)) return smoothSample(map, pinShadow, at);

@@ -18,13 +18,14 @@ struct ShadowMap {
 const uint kShadowCountBits = 3u;
 const uint kShadowCubeFaces = 6u;  // of a point light, or of a spot too wide for one map
 
-// How far from where a surface is its taps may be, in texels at softness 1, beyond the half texel that every tap may be off.
-const float kJitteredReach = 0.8f;
+// How far along u and v from where a surface is its taps may be, in texels at softness 1, beyond the half texel that every one may be off.
+const float kJitteredReach = 0.5f;
 const float kSmoothReach = 1.5f;
 
 // Slope-scaled bias, in steps of depth from texel to texel: one lets a plane at any angle be lit by its own texels.
 const float kShadowSlopeBias = 1.25f;
 const float kShadowBias = 0.1f;    // texels towards the light
+const float kNormalOffset = 1.5f;  // diagonals of that half texel and of the reach, along the normal of a plane that the map sees edge on
 
 // Pushed for each map that is drawn.
 struct ShadowPush {

@@ -1,0 +1,376 @@
+#include <fmt/format.h>
+#include <luciole/error.hpp>
+#include <luciole/reference.hpp>
+#include <luciole/scene_io.hpp>
+
+#include "device.hpp"
+#include "reference/camera_rays.hpp"
+#include "render/shadow/shadow_plan.hpp"
+#include "scene/visibility.hpp"
+#include "scene_building.hpp"
+#include "scenes.hpp"
+#include "support.hpp"
+
+using namespace luciole;
+using namespace luciole::test;
+
+namespace {
+
+constexpr RenderSettings kMaps{.shadows = Shadows::maps};
+
+RenderSettings with(ShadowFilter filter, std::string lighting = "brute-force") {
+    RenderSettings settings{.lighting = std::move(lighting), .shadows = Shadows::maps};
+    settings.shadowFilter = filter;
+    return settings;
+}
+
+/// The share of light that shadows leave of each pixel's.
+std::vector<double> litShares(const Image& shadowed, const Image& lit) {
+    std::vector<double> shares(shadowed.data.size() / 3, 1);
+    for (size_t i = 0; i < shares.size(); ++i) {
+        const auto sum = [&](const Image& image) { return double(image.data[3 * i]) + double(image.data[3 * i + 1]) + double(image.data[3 * i + 2]); };
+        if (sum(lit) > 0) shares[i] = sum(shadowed) / sum(lit);
+    }
+    return shares;
+}
+
+/// Says of pixels whether a shadow's edge passes within two texels of where they are, by rays from the places around.
+class EdgeBand {
+public:
+    EdgeBand(const Scene& scene, const View& view, const RenderSettings& settings)
+        : scene_(scene), rays_(view), visibility_(scene), eye_(view.camera.worldFromView[3]) {
+        std::vector<render::ShadowCaster> casters;
+        for (const Object& object : scene.objects) {
+            const Material& material = scene.materials[object.material];
+            if (!isDrawn(object) || material.alphaMode == AlphaMode::blend) continue;
+            Bounds bounds{vec3(HUGE_VALF), vec3(-HUGE_VALF)};
+            for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
+                const vec3 p(object.worldFromObject * vec4(vertex.position, 1));
+                bounds = {glm::min(bounds.low, p), glm::max(bounds.high, p)};
+            }
+            casters.push_back({bounds, object.objectId, material.castsShadows});
+        }
+        plan_.update({.view = view,
+                      .settings = settings,
+                      .lights = scene.lights,
+                      .casters = casters,
+                      .boundsWorld = boundsOf(scene),
+                      .castsFor = [](uint32_t, uint32_t) { return true; },
+                      .largestSide = 16384,
+                      .version = 0});
+    }
+
+    bool holds(uint32_t x, uint32_t y) const {
+        const reference::Ray ray = rays_.through(x, y);
+        const auto seen = [&](const Hit& hit) { return material(hit).alphaMode != AlphaMode::blend; };
+        const auto hit = visibility_.closest(ray.origin, ray.direction, rays_.nearest(), seen);
+        if (!hit) return false;
+        const dvec3 P = ray.origin + hit->t * ray.direction;
+        return std::ranges::any_of(plan_.maps(), [&](const render::PlannedMap& map) { return hasEdge(map, *hit, P); });
+    }
+
+private:
+    const Material& material(const Hit& hit) const { return scene_.materials[scene_.objects[hit.object].material]; }
+
+    dvec3 normalOf(const Hit& hit) const {
+        const auto corners = visibility_.triangleWorld(hit.object, hit.triangle);
+        return normalize(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    }
+
+    /// As the reference does, but that masks are whole.
+    bool isShadowed(const Hit& receiver, dvec3 P, dvec3 L, const Light& light) const {
+        const dvec3 N = normalOf(receiver), up = dot(N, L) < 0 ? -N : N;
+        const auto casts = [&](const Hit& hit) {
+            if (!material(hit).castsShadows || material(hit).alphaMode == AlphaMode::blend || (hit.object == receiver.object && hit.triangle == receiver.triangle)) return false;
+            return std::ranges::any_of(visibility_.triangleWorld(hit.object, hit.triangle), [&](dvec3 corner) { return dot(up, corner - P) > 1e-6 * length(P); });
+        };
+        if (light.type == LightType::directional) return visibility_.isBlocked(P, -dvec3(light.directionWorld), HUGE_VAL, casts);
+        return visibility_.isBlocked(P, dvec3(light.positionWorld) - P, 1, casts);
+    }
+
+    bool hasEdge(const render::PlannedMap& map, const Hit& receiver, dvec3 P) const {
+        const Light& light = scene_.lights[map.light];
+        const bool directional = light.type == LightType::directional;
+        const auto constants = render::ShadowPlan::constants(map, 1, eye_);
+        const vec4 at = constants.warp * vec4(vec3(P - (directional ? eye_ : dvec3(light.positionWorld))), 1);
+        if (constants.texel == 0 || at.w <= 0) return false;
+        const vec2 uv = vec2(at) / at.w;
+        if (glm::any(glm::lessThan(uv, constants.low)) || glm::any(glm::greaterThan(uv, constants.high))) return false;
+        if (!directional && distance(P, dvec3(light.positionWorld)) > double(light.range)) return false;
+        const dvec3 L = directional ? -dvec3(light.directionWorld) : normalize(dvec3(light.positionWorld) - P);
+        const double texel = double(constants.texel) * double(at.w), cosine = dot(L, normalOf(receiver));
+        const bool here = isShadowed(receiver, P, L, light);
+        for (const double reach : {1.0, 2.0})
+            for (int i = 0; i < 8; ++i) {
+                const double angle = i * kPi / 4;
+                const dvec3 aside = reach * texel * (std::cos(angle) * map.frustum.right + std::sin(angle) * map.frustum.down);
+                // Where the same surface is there, as the light sees it; if it is not, its own edge is near.
+                const double height = 4 * texel / std::max(std::abs(cosine), 0.05);
+                const auto there = visibility_.closest(P + aside + height * L, -L, 0, [&](const Hit& hit) { return hit.object == receiver.object; });
+                if (!there || there->t > 2 * height) {
+                    if (cosine > 0) return true;
+                    continue;
+                }
+                if (isShadowed(*there, P + aside + (height - there->t) * L, L, light) != here) return true;
+            }
+        return false;
+    }
+
+    const Scene& scene_;
+    reference::CameraRays rays_;
+    Visibility visibility_;
+    dvec3 eye_;
+    render::ShadowPlan plan_;
+};
+
+/// Checks hard shadows against the reference's: how much light they leave differs by 5 % of it at no more than a thousandth of the pixels
+/// that lie farther than two texels from a shadow's edge.
+void checkHardShadows(ValidatedRenderer& renderer, const TestScene& test, const std::string& lighting) {
+    INFO("scene: " << test.name << ", technique: " << lighting);
+    const Frame reference = renderReference(test.scene, test.view, kMaps, {"id", "material", "depth"});
+    const std::vector<double> expected = litShares(reference.radiance, renderReference(test.scene, test.view, {}).radiance);
+    renderer->setScene(test.scene);
+    const RenderSettings settings = with(ShadowFilter::point, lighting);
+    const std::vector<double> found =
+        litShares(renderer->render(test.view, settings).radiance, renderer->render(test.view, {.lighting = lighting}).radiance);
+    const auto mask = interior(reference);
+    const EdgeBand band(test.scene, test.view, settings);
+    size_t compared = 0, shadowed = 0, differ = 0, wrong = 0, sampled = 0, inBand = 0;
+    std::string where;
+    for (uint32_t y = 0; y < test.view.extent.y; ++y)
+        for (uint32_t x = 0; x < test.view.extent.x; ++x) {
+            const size_t i = size_t(y) * test.view.extent.x + x;
+            if (!mask[i]) continue;
+            ++compared;
+            shadowed += expected[i] < 0.95;
+            if (i % 29 == 0) ++sampled, inBand += band.holds(x, y);
+            if (std::abs(found[i] - expected[i]) <= 0.05) continue;
+            ++differ;
+            if (band.holds(x, y)) continue;
+            ++wrong;
+            if (wrong <= 8) where += fmt::format(" ({}, {}): {:.2f}, not {:.2f}", x, y, found[i], expected[i]);
+        }
+    INFO("compared " << compared << ", shadowed " << shadowed << ", differ " << differ << ", of them away from edges " << wrong << where << "; of " << sampled << " pixels by an edge " << inBand);
+    CHECK(compared > 1000);
+    CHECK(shadowed > compared / 20);
+    CHECK(double(inBand) < 0.7 * double(sampled));  // or nothing was tested
+    CHECK(double(wrong) <= 1e-3 * (1 - double(inBand) / double(sampled)) * double(compared));
+}
+
+TestScene builtin(const std::string& uri, uvec2 extent = {320, 240}) {
+    Scene scene = loadScene(uri);
+    const Camera camera = scene.cameras.at(0);
+    return {uri, std::move(scene), {camera, extent}};
+}
+
+}  // namespace
+
+TEST_CASE("shadow maps: hard shadows are the reference's but for two texels at their edges, on scenes with every type of light") {
+    ValidatedRenderer renderer;
+    for (const char* uri : {"builtin:hall?lights=16", "builtin:materials", "builtin:fireflies?lights=20"})
+        for (const char* lighting : {"brute-force", "forward-loop"}) checkHardShadows(renderer, builtin(uri), lighting);
+}
+
+TEST_CASE("shadow maps: hard shadows are the reference's on real assets, too") {
+    LUCIOLE_ASSETS_OR_SKIP(folder);
+    const std::filesystem::path rigs = std::filesystem::path(LUCIOLE_SOURCE_DIR) / "examples" / "rigs";
+    ValidatedRenderer renderer;
+    struct Asset {
+        const char *file, *rig;
+    };
+    for (const Asset& asset : {Asset{"Sponza/Sponza.gltf", "sponza.json"}, Asset{"CastlePunctualLights/test_lights.glb", nullptr}}) {
+        Scene scene = loadScene((folder / asset.file).string());
+        if (asset.rig) applyRig(scene, rigs / asset.rig);
+        const Camera camera = scene.cameras.empty() ? autoCamera(scene) : scene.cameras.back();
+        for (const char* lighting : {"brute-force", "forward-loop"}) checkHardShadows(renderer, {asset.file, scene, {camera, {320, 240}}}, lighting);
+    }
+}
+
+TEST_CASE("shadow maps: each technique gives the shadows of its yardstick, with every filter") {
+    ValidatedRenderer renderer;
+    const std::map<std::string, ShadowFilter> chosen{
+        {"studio", ShadowFilter::smooth}, {"glass", ShadowFilter::jittered}, {"bounded lights", ShadowFilter::point}};
+    for (const TestScene& test : testScenes()) {
+        if (!chosen.contains(test.name)) continue;
+        const ShadowFilter filter = chosen.at(test.name);
+        INFO("scene: " << test.name << ", filter: " << int(filter));
+        renderer->setScene(test.scene);
+        const View view{test.view.camera, {96, 72}};
+        const Image dark = renderer->render(view, with(filter)).radiance, lit = renderer->render(view, {}).radiance;
+        CHECK(difference(dark, lit).mean > 0.002);  // there are shadows
+        Yardsticks yardsticks(renderer, view, with(filter));
+        for (const auto& technique : render::techniques()) {
+            INFO("technique: " << technique.info.name);
+            const Frame& yardstick = yardsticks.of(technique);
+            const Frame frame = renderer->render(view, with(filter, std::string(technique.info.name)));
+            checkAlike(technique, frame.radiance, yardstick.radiance, yardsticks.comparable(technique, test.scene), test.scene.lights.size());
+        }
+    }
+}
+
+TEST_CASE("shadow maps: planes at grazing angles are lit to the last pixel, whatever the light, the filter and the technique") {
+    for (const float degrees : {0.5f, 2.0f, 5.0f, 20.0f, 45.0f, 80.0f}) {
+        INFO("angle to the plane: " << degrees << " degrees");
+        // A floor of tiles that do not meet, each an object that may cast.
+        Scene scene;
+        const Material white = lambertMaterial(scene);
+        for (int y = -4; y <= 4; ++y)
+            for (int x = -4; x <= 4; ++x) addObject(scene, quad(0.49f), white, glm::translate(mat4(1), vec3(x, y, 0)));
+        const float angle = glm::radians(degrees);
+        const vec3 away(std::cos(angle) * 0.8f, std::cos(angle) * 0.6f, std::sin(angle));
+        scene.lights = {directionalLight(-away, vec3(1 / std::sin(angle))), pointLight(4.0f * away, vec3(100 / std::sin(angle)), 20),
+                        spotLight(6.0f * away, -away, 0.3f, 0.8f, vec3(100 / std::sin(angle)), 20)};
+        Camera camera;
+        camera.worldFromView = lookAt(vec3(0, -6, 3), vec3(0, 0, 0));
+        const View view{camera, {160, 120}};
+        ValidatedRenderer renderer;
+        renderer->setScene(scene);
+        for (const auto filter : {ShadowFilter::point, ShadowFilter::jittered, ShadowFilter::smooth})
+            for (const char* lighting : {"brute-force", "forward-loop", "clustered"}) {
+                INFO("filter " << int(filter) << ", " << lighting);
+                const std::vector<double> shares =
+                    litShares(renderer->render(view, with(filter, lighting)).radiance, renderer->render(view, {.lighting = lighting}).radiance);
+                CHECK(std::ranges::count_if(shares, [](double share) { return share < 0.999; }) == 0);
+            }
+    }
+}
+
+TEST_CASE("shadow maps: with nothing moving the second frame draws none; what moved has its own drawn anew") {
+    ValidatedRenderer renderer;
+    TestScene test = builtin("builtin:hall?lights=24", {160, 120});
+    renderer->setScene(test.scene);
+    const RenderSettings settings{.lighting = "clustered", .shadows = Shadows::maps};
+    const Frame first = renderer->render(test.view, settings);
+    REQUIRE(first.stats.shadows);
+    CHECK(first.stats.shadows->lights > 10);
+    CHECK(first.stats.shadows->drawn == first.stats.shadows->maps);
+    CHECK(first.stats.shadows->casterDraws > first.stats.shadows->maps / 2);
+    CHECK(first.stats.shadows->bytes >= 4 * first.stats.shadows->texels);
+    CHECK(first.stats.shadows->waiting.empty());
+    CHECK(first.stats.shadows->lost.empty());
+    const Frame second = renderer->render(test.view, settings);
+    CHECK(second.stats.shadows->drawn == 0);
+    CHECK(second.stats.shadows->casterDraws == 0);
+    CHECK(second.stats.shadows->maps == first.stats.shadows->maps);
+    CHECK(second.radiance.data == first.radiance.data);
+
+    const uint32_t moved = 0;
+    test.scene.lights[moved].positionWorld += vec3(0.1f, 0, 0.05f);
+    renderer->setLights(test.scene.lights);
+    const Frame third = renderer->render(test.view, settings);
+    CHECK(third.stats.shadows->drawn >= 1);
+    CHECK(third.stats.shadows->drawn <= 6);
+    ValidatedRenderer fresh;
+    CHECK(third.radiance.data == fresh.render(test.scene, test.view, settings).radiance.data);
+    // Other techniques, filters and sizes of the picture that leave the maps as they are find them there.
+    for (const char* lighting : {"brute-force", "light-indexed", "tiled"})
+        for (const auto filter : {ShadowFilter::point, ShadowFilter::smooth}) CHECK(renderer->render(test.view, with(filter, lighting)).stats.shadows->drawn == 0);
+    CHECK_FALSE(renderer->render(test.view, {.lighting = "brute-force"}).stats.shadows);
+    CHECK(renderer->render(test.view, settings).stats.shadows->drawn == 0);
+}
+
+TEST_CASE("shadow maps: a budget of redraws comes to the same picture in the end, and says who waits until then") {
+    ValidatedRenderer renderer, fresh;
+    const TestScene test = builtin("builtin:hall?lights=12", {96, 72});
+    RenderSettings settings = kMaps;
+    const Frame whole = fresh.render(test.scene, test.view, settings);
+    settings.shadowRedraws = 10;
+    renderer->setScene(test.scene);
+    uint32_t frames = 0;
+    Frame frame;
+    do {
+        frame = renderer->render(test.view, settings);
+        CHECK(frame.stats.shadows->drawn <= 10);
+    } while (!frame.stats.shadows->waiting.empty() && ++frames < 50);
+    CHECK(frames == (whole.stats.shadows->maps - 1) / 10);
+    CHECK(frame.radiance.data == whole.radiance.data);
+}
+
+TEST_CASE("shadow maps: too little memory makes them coarser, then leaves lights without, by name, or is refused") {
+    ValidatedRenderer renderer;
+    TestScene test = builtin("builtin:hall?lights=400", {320, 240});
+    renderer->setScene(test.scene);
+    RenderSettings settings{.lighting = "clustered", .shadows = Shadows::maps, .shadowMemory = 1};
+    const Frame frame = renderer->render(test.view, settings);
+    CHECK(frame.stats.shadows->coarser > 0);
+    CHECK(frame.stats.shadows->bytes <= 1u << 20);
+    REQUIRE(!frame.stats.shadows->lost.empty());
+    // A light that is lost shines as if nothing kept it off.
+    for (const auto& without : frame.stats.shadows->lost) test.scene.lights[without.light].castsShadows = false;
+    ValidatedRenderer fresh;
+    settings.onOverflow = OnOverflow::fail;
+    CHECK(fresh.render(test.scene, test.view, settings).radiance.data == frame.radiance.data);
+    CHECK_THROWS_WITH_AS(renderer->render(test.view, settings), doctest::Contains("\"lamp "), Error);
+    settings.shadowMemory = 256;
+    CHECK(renderer->render(test.view, settings).stats.shadows->lost.empty());
+}
+
+TEST_CASE("shadow maps: degenerate lights, views and scenes give finite pictures") {
+    ValidatedRenderer renderer;
+    const auto checkFinite = [&](const Scene& scene, const View& view) {
+        renderer->setScene(scene);
+        for (const auto filter : {ShadowFilter::point, ShadowFilter::smooth}) {
+            const Frame frame = renderer->render(view, with(filter));
+            CHECK(std::ranges::all_of(frame.radiance.data, [](float value) { return std::isfinite(value); }));
+        }
+    };
+    Scene scene;
+    const Material white = lambertMaterial(scene);
+    addObject(scene, quad(2), white);
+    addObject(scene, sphere(0.3f), white, glm::translate(mat4(1), vec3(0, 0, 0.5f)));
+    const View view{frontCamera(3), {40, 30}};
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const vec3 eye(0, 0, 3);
+    scene.lights = {pointLight(vec3(0, 0, 1), vec3(1), tiny), pointLight(vec3(0, 0, 0)),  // in the wall
+                    pointLight(vec3(0, 0, 0.5f)), pointLight(eye), pointLight(vec3(0, 0, 0.2f), vec3(1), 1e30f),
+                    spotLight(vec3(1, 0, 2), vec3(0, 0, -1), 0, 1e-6f), spotLight(vec3(1, 0, 2), vec3(0, 0, -1), 0, float(kPi)),
+                    spotLight(eye, vec3(0, 0, -1), 0, float(kPi / 2)), directionalLight(vec3(0, 1, 0)), directionalLight(vec3(0, 0, 1)),
+                    pointLight(vec3(0, 0, 1), vec3(0))};
+    scene.lights.front().shadowSoftness = 0, scene.lights.back().shadowSoftness = 4;
+    checkFinite(scene, view);
+    for (const uvec2 extent : {uvec2(1, 1), uvec2(1, 4096), uvec2(4096, 1), uvec2(97, 89)}) checkFinite(scene, {frontCamera(3), extent});
+    checkFinite(scene, {frontOrthographicCamera(3, 2), {40, 30}});
+    Scene dark = scene;
+    dark.lights.clear();
+    checkFinite(dark, view);
+    Scene bare;
+    bare.lights = scene.lights;
+    checkFinite(bare, view);
+}
+
+TEST_CASE("shadow maps: masks cut them out; materials, lights and link groups say who casts") {
+    ValidatedRenderer renderer;
+    // As in the reference's test: a square over a floor, which shows the camera its back.
+    Scene scene;
+    addObject(scene, quad(1), lambertMaterial(scene));
+    addObject(scene, quad(0.25f), {}, glm::translate(mat4(1), vec3(0, 0, 1)) * glm::rotate(mat4(1), float(kPi), vec3(1, 0, 0)));
+    scene.lights = {pointLight(vec3(0, 0, 2), vec3(5))};
+    const View view{frontOrthographicCamera(3, 1), {64, 64}};
+    const auto darkShare = [&](const Scene& changed) {
+        const Frame frame = renderer.render(changed, view, with(ShadowFilter::point, "forward-loop"));
+        return double(std::ranges::count(frame.radiance.data, 0.0f)) / double(frame.radiance.data.size());
+    };
+    const double edge = 4 * 32.0 / (64 * 64);  // as many pixels as the shadow's edge is long
+    CHECK(std::abs(darkShare(scene) - 0.25) < 2 * edge);
+    Scene masked = scene;
+    masked.materials[1].alphaMode = AlphaMode::mask;
+    masked.materials[1].baseColorTexture =
+        addTexture(masked, 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}, {.magFilter = Filter::nearest, .minFilter = Filter::nearest, .mipFilter = MipFilter::none});
+    CHECK(std::abs(darkShare(masked) - 0.125) < 2 * edge);
+    Scene other = scene;
+    other.lights[0].castsShadows = false;
+    CHECK(darkShare(other) == 0);
+    other = scene;
+    other.materials[1].castsShadows = false;
+    CHECK(darkShare(other) == 0);
+    other = scene;
+    other.linkGroups = {{"floor only", {true, true}, {true}}};
+    other.lights[0].linkGroup = 0;
+    CHECK(darkShare(other) == 0);
+    // Front faces alone cast, or back faces: the square shows the light its back, too.
+    RenderSettings settings = with(ShadowFilter::point, "forward-loop");
+    settings.shadowCasters = ShadowCasters::backFaces;
+    CHECK(renderer.render(scene, view, settings).radiance.data == renderer.render(scene, view, with(ShadowFilter::point, "forward-loop")).radiance.data);
+    settings.shadowCasters = ShadowCasters::frontFaces;
+    CHECK(renderer.render(scene, view, settings).radiance.data == renderer.render(scene, view, {.lighting = "forward-loop"}).radiance.data);
+}
