@@ -81,6 +81,8 @@ void run(const RenderOptions& options) {
     console.detail(fmt::format("{:.2f} s: files written", sinceStart()));
     if (frame.stats.lightIndex)
         if (const std::string note = overflowNote(*frame.stats.lightIndex, scene); !note.empty()) console.note(note);
+    if (frame.stats.shadows)
+        for (const std::string& note : shadowNotes(*frame.stats.shadows, scene)) console.note(note);
     std::optional<OverlapCounts> counts;
     if (options.output.shown == Shown::overlap)
         counts = countOverlap(frame.aovs.at("evaluations"), frame.aovs.at("useful-evaluations"));

@@ -68,6 +68,16 @@ std::string statisticsJson(const Frame& frame, const RenderSettings& settings,
     if (const auto& lists = stats.lightLists)
         json["lightLists"] = {{"tileSize", lists->tileSize}, {"lists", lists->lists}, {"entries", lists->entries},
                               {"longest", lists->longest},   {"pages", lists->pages}, {"bytes", lists->bytes}};
+    if (const auto& shadows = stats.shadows) {
+        const auto list = [](const std::vector<ShadowStats::Without>& lights) {
+            Json rows = Json::array();
+            for (const ShadowStats::Without& without : lights) rows.push_back({{"light", without.light}, {"reason", without.reason}});
+            return rows;
+        };
+        json["shadows"] = {{"lights", shadows->lights},   {"maps", shadows->maps},   {"drawn", shadows->drawn}, {"casterDraws", shadows->casterDraws},
+                           {"coarser", shadows->coarser}, {"texels", shadows->texels}, {"bytes", shadows->bytes}, {"waiting", list(shadows->waiting)},
+                           {"lost", list(shadows->lost)}};
+    }
     // Driver names come from outside and need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
@@ -91,6 +101,30 @@ std::string overflowNote(const LightIndexStats& stats, const Scene& scene) {
     return note + (worst.size() > kNamed ? ", ..." : "");
 }
 
+namespace {
+
+/// The first of some lights by index and name, and that there are more.
+std::string namedLights(const std::vector<ShadowStats::Without>& lights, const Scene& scene) {
+    constexpr size_t kNamed = 8;
+    std::string names;
+    for (size_t i = 0; i < std::min(lights.size(), kNamed); ++i) {
+        const std::string& name = scene.lights[lights[i].light].name;
+        names += fmt::format("{}{}{}", i == 0 ? "" : ", ", lights[i].light, name.empty() ? "" : " \"" + name + "\"");
+    }
+    return names + (lights.size() > kNamed ? ", ..." : "");
+}
+
+}  // namespace
+
+std::vector<std::string> shadowNotes(const ShadowStats& stats, const Scene& scene) {
+    std::vector<std::string> notes;
+    if (!stats.lost.empty())
+        notes.push_back(fmt::format("shadows: {} lights go without: {}: {}", stats.lost.size(), stats.lost[0].reason, namedLights(stats.lost, scene)));
+    if (!stats.waiting.empty())
+        notes.push_back(fmt::format("shadows: {} lights wait for theirs: {}: {}", stats.waiting.size(), stats.waiting[0].reason, namedLights(stats.waiting, scene)));
+    return notes;
+}
+
 std::string statisticsTable(const FrameStats& stats, const std::optional<OverlapCounts>& counts) {
     std::string table = fmt::format("{:<40} {:>10} {:>10} {:>8}\n", "pass", "ms", "MiB", "draws");
     for (const PassStats& pass : stats.passes)
@@ -105,6 +139,10 @@ std::string statisticsTable(const FrameStats& stats, const std::optional<Overlap
     if (const auto& lists = stats.lightLists)
         table += fmt::format("light lists: {} entries in {} lists, the longest of {}; tiles of {} pixels, {} page{}, {:.2f} MiB\n", lists->entries, lists->lists,
                              lists->longest, lists->tileSize, lists->pages, lists->pages == 1 ? "" : "s", mebibytes(lists->bytes));
+    if (const auto& shadows = stats.shadows)
+        table += fmt::format("shadows: {} maps of {} lights, {} of them drawn in {} draws; {:.1f} of {:.1f} MiB{}\n", shadows->maps, shadows->lights, shadows->drawn,
+                             shadows->casterDraws, mebibytes(4 * shadows->texels), mebibytes(shadows->bytes),
+                             shadows->coarser == 0 ? "" : fmt::format(", sides {} times halved", shadows->coarser));
     return table + fmt::format("{} lights, {} triangles on {} ({})\n", stats.lights, stats.triangles, stats.deviceName,
                                stats.driver);
 }

@@ -123,6 +123,12 @@ struct FrameStats {
     std::string deviceName, driver;
 };
 
+/// An object elsewhere than it was.
+struct MovedObject {
+    uint32_t object;       ///< index into Scene::objects
+    mat4 worldFromObject;  ///< in place of the one that it had
+};
+
 /// One rendered picture. All images have the view's size.
 struct Frame {
     Image radiance;  ///< linear Rec. 709, 3 channels
@@ -172,6 +178,12 @@ public:
     /// \throws Error(scene) for lights that break a rule of scene.hpp (see `validate`), Error(limit) for more than the device can hold,
     ///         Error(deviceLost); the lights that were there stay, then
     void setLights(std::span<const Light> lights);
+
+    /// Moves objects of the scene set last. Shadow maps that none of them casts into are kept, and of the others what never moved is not
+    /// drawn again.
+    /// \throws Error(scene) for an index beyond the scene's objects, a matrix that is not finite, is singular or mirrors where the one before
+    ///         did not, or the other way round, and for objects whose first matrix was singular; Error(deviceLost). No object has moved, then
+    void moveObjects(std::span<const MovedObject> moved);
 
     /// Renders one picture of the scene set last (an empty one at first) and waits for it.
     /// \throws Error(usage) for settings, Error(limit) for sizes beyond the device, Error(deviceLost)

@@ -119,14 +119,14 @@ Image viewImage(const Context& context, const std::string& name, vk::Image handl
 Buffer uploadBuffer(const Context& context, const std::string& name, std::span<const std::byte> data,
                     vk::BufferUsageFlags usage) {
     Buffer target = makeBuffer(context, name, data.size(), usage | vk::BufferUsageFlagBits::eTransferDst);
-    if (data.empty()) return target;
-    MappedBuffer staging(context, name + " staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
+    MappedBuffer staging;
     updateBuffer(context, target, data, staging);
     return target;
 }
 
 void updateBuffer(const Context& context, const Buffer& target, std::span<const std::byte> data, MappedBuffer& staging) {
     if (data.empty()) return;
+    if (data.size() > staging.bytes()) staging = MappedBuffer(context, "staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
     staging.write(data);
     context.runOnce([&](const vk::raii::CommandBuffer& commands) {
         commands.copyBuffer(staging.handle(), *target.handle, vk::BufferCopy{.size = data.size()});

@@ -80,7 +80,7 @@ Buffer uploadBuffer(const Context& context, const std::string& name, const std::
     return uploadBuffer(context, name, std::as_bytes(std::span(data)), usage);
 }
 
-/// Puts `data` at the beginning of a buffer by way of `staging`, which is no smaller, and waits. No frame may be on its way.
+/// Puts `data` at the beginning of a buffer by way of `staging`, which is made larger if need be, and waits. No frame may be on its way.
 void updateBuffer(const Context& context, const Buffer& target, std::span<const std::byte> data, MappedBuffer& staging);
 
 /// A sampled image in the layout that shaders read. `levels[i]` holds the texels of mip level i, tightly packed.

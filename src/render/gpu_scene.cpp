@@ -7,6 +7,7 @@
 #include <cstring>
 #include <luciole/error.hpp>
 #include <numeric>
+#include <ranges>
 #include <tuple>
 
 #include "gpu/bindings.shared.h"
@@ -45,15 +46,15 @@ std::array<TextureRole, kTextureSlots> texturesOf(const Material& material) {
 
 bool mirrored(const Object& object) { return determinant(dmat3(object.worldFromObject)) < 0; }
 
-/// Contains the object's vertices wherever floats put them in world space.
-Bounds boundsOf(const Scene& scene, const Object& object) {
-    const mat4& m = object.worldFromObject;
+/// Contains points wherever floats put them in world space.
+template <typename Points>
+Bounds boundsOf(const Points& points, const mat4& m) {
     vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest()), farthest(0);
-    for (const Vertex& vertex : scene.meshes[object.mesh].vertices) {
-        const vec3 p(m * vec4(vertex.position, 1));
+    for (const vec3 point : points) {
+        const vec3 p(m * vec4(point, 1));
         low = min(low, p);
         high = max(high, p);
-        farthest = max(farthest, abs(vertex.position));
+        farthest = max(farthest, abs(point));
     }
     constexpr float kRounding = 1e-6f;  // of a sum of four products, both here and there: 16 units of roundoff
     const vec3 terms = abs(vec3(m[0])) * farthest.x + abs(vec3(m[1])) * farthest.y + abs(vec3(m[2])) * farthest.z + abs(vec3(m[3]));
@@ -138,7 +139,7 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
     bounceView_ = gpu::MappedBuffer(context_, "bounce view", sizeof(ViewConstants), Usage::eUniformBuffer);
     uploadLights(sceneLights_, {});
-    lightStaging_ = {};  // few scenes have other lights later
+    staging_ = {};  // few scenes have other lights later
     volumeTable_ = gpu::uploadBuffer(context_, "light volumes", volumes_.volumes, Usage::eStorageBuffer);
     volumeVertices_ = gpu::uploadBuffer(context_, "light volume vertices", volumes_.vertices, Usage::eStorageBuffer);
     volumeIndices_ = gpu::uploadBuffer(context_, "light volume indices", render::volumeIndices(), Usage::eIndexBuffer);
@@ -176,12 +177,16 @@ void GpuScene::uploadObjects(const Scene& scene) {
         return std::tuple(blends(i), object.material, object.mesh, mirrored(object));
     };
     std::ranges::stable_sort(order, {}, batchOf);
-    std::vector<ObjectConstants> table;
+    std::vector<ObjectConstants>& table = objectTable_;
+    placeOfObject_.assign(scene.objects.size(), kNone);
+    for (const Object& object : scene.objects) meshOfObject_.push_back(object.mesh);
+    for (const Mesh& mesh : scene.meshes) meshBounds_.push_back(boundsOf(mesh.vertices | std::views::transform(&Vertex::position), mat4(1)));
     for (const uint32_t i : order) {
         const auto [blended, material, mesh, flipped] = batchOf(i);
         const Batch alone{mesh, material, flipped, uint32_t(table.size()), 1};
         const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
-        const Bounds bounds = boundsOf(scene, scene.objects[i]);
+        const Bounds bounds = boundsOf(scene.meshes[mesh].vertices | std::views::transform(&Vertex::position), scene.objects[i].worldFromObject);
+        placeOfObject_[i] = uint32_t(table.size());
         if (!blended) {
             opaque_.push_back({scene.objects[i].objectId, bounds});
             casters_.push_back({bounds, scene.objects[i].objectId, scene.materials[material].castsShadows});
@@ -195,6 +200,41 @@ void GpuScene::uploadObjects(const Scene& scene) {
         table.push_back(objectConstants(scene.objects[i]));
     }
     objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eVertexBuffer);
+}
+
+void GpuScene::moveObjects(std::span<const MovedObject> moved) {
+    for (const MovedObject& object : moved) {
+        const auto refuse = [&](std::string_view expected) {
+            throw Error(ErrorKind::scene, fmt::format("objects[{}]: worldFromObject: expected {}", object.object, expected));
+        };
+        if (object.object >= placeOfObject_.size())
+            throw Error(ErrorKind::scene, fmt::format("moved objects: expected indices below {}, got {}", placeOfObject_.size(), object.object));
+        for (int i = 0; i < 16; ++i)
+            if (!std::isfinite(object.worldFromObject[i / 4][i % 4])) refuse("finite numbers");
+        const uint32_t place = placeOfObject_[object.object];
+        if (place == kNone) refuse("an object that was drawn; it had a singular matrix when the scene was set");
+        const double volume = determinant(dmat3(object.worldFromObject));
+        if (!isDrawn({.worldFromObject = object.worldFromObject})) refuse("a matrix that is not singular");
+        if ((volume < 0) != (objectTable_[place].tangentSign < 0)) refuse("a determinant of the same sign as before");
+    }
+    for (const MovedObject& object : moved) {
+        const uint32_t place = placeOfObject_[object.object];
+        ObjectConstants& constants = objectTable_[place];
+        constants = objectConstants({.material = constants.material - 1, .worldFromObject = object.worldFromObject, .objectId = constants.objectId});
+        const Bounds& mesh = meshBounds_[meshOfObject_[object.object]];
+        std::array<vec3, 8> corners;
+        for (uint32_t i = 0; i < 8; ++i) corners[i] = {i & 1 ? mesh.high.x : mesh.low.x, i & 2 ? mesh.high.y : mesh.low.y, i & 4 ? mesh.high.z : mesh.low.z};
+        const Bounds bounds = boundsOf(corners, object.worldFromObject);
+        boundsWorld_ = {min(boundsWorld_.low, bounds.low), max(boundsWorld_.high, bounds.high)};
+        if (place < opaque_.size()) {
+            opaque_[place].boundsWorld = casters_[place].boundsWorld = bounds;
+            ++casters_[place].version;
+        } else {
+            std::ranges::find(blended_, place, [](const BlendedObject& blended) { return blended.batch.firstObject; })->centerWorld = 0.5f * (bounds.low + bounds.high);
+        }
+    }
+    ++version_;
+    gpu::updateBuffer(context_, objects_, std::as_bytes(std::span(objectTable_)), staging_);
 }
 
 size_t GpuScene::drawnMaterialStride() const {
@@ -327,13 +367,11 @@ void GpuScene::uploadLights(std::span<const Light> lights, std::optional<Bounce>
     tree.resize(size_t(treeRows) * kTreeWidth);
     const std::span<const std::byte> texels = std::as_bytes(std::span(tree));
     gpu::Image treeImage = gpu::uploadImage(context_, "light tree", vk::Format::eR32G32B32A32Sfloat, {kTreeWidth, treeRows}, std::span(&texels, 1));
-    if (const size_t bytes = std::max(rows.size(), kindRows.size()); bytes > lightStaging_.bytes())
-        lightStaging_ = gpu::MappedBuffer(context_, "light staging", bytes, Usage::eTransferSrc);
     if (table.bytes > 0) lightTable_ = std::move(table);
     if (kinds.bytes > 0) lightKinds_ = std::move(kinds);
     lightTree_ = std::move(treeImage);
-    gpu::updateBuffer(context_, lightTable_, rows, lightStaging_);
-    gpu::updateBuffer(context_, lightKinds_, kindRows, lightStaging_);
+    gpu::updateBuffer(context_, lightTable_, rows, staging_);
+    gpu::updateBuffer(context_, lightKinds_, kindRows, staging_);
     lights_ = std::move(sorted);
     lightFeatures_ = features;
     bounce_ = std::move(bounce);
@@ -355,7 +393,7 @@ bool GpuScene::setLights(std::span<const Light> lights) {
     const auto before = structure();
     uploadLights(lights, bounce);
     sceneLights_.assign(lights.begin(), lights.end());
-    ++lightsVersion_;
+    ++version_;
     const bool changed = structure() != before;
     writeFrameSets();  // the tree is a new image
     return changed || lights_.meshes > 0;
@@ -433,7 +471,7 @@ bool GpuScene::setShadows(const View& view, const RenderSettings& settings) {
     const auto castsFor = [&](uint32_t group, uint32_t objectId) {
         return group == kNone || (objectId < castingObjects_[group].size() && castingObjects_[group][objectId]);
     };
-    const vk::Image atlas = shadows_.atlasImage();
+    const auto images = shadows_.images();
     const bool changed = shadows_.update({.view = view,
                                           .settings = settings,
                                           .lights = sceneLights_,
@@ -441,10 +479,10 @@ bool GpuScene::setShadows(const View& view, const RenderSettings& settings) {
                                           .boundsWorld = boundsWorld_,
                                           .castsFor = castsFor,
                                           .largestSide = std::min({context_.limits().maxImageDimension2D, context_.limits().maxFramebufferWidth, context_.limits().maxFramebufferHeight}),
-                                          .version = lightsVersion_},
+                                          .version = version_},
                                          lightCount());
     if (changed) writeFrameSets();
-    return shadows_.atlasImage() != atlas;
+    return shadows_.images() != images;
 }
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
@@ -514,14 +552,13 @@ void GpuScene::drawDepth(frame::PassContext& pass) const {
     }
 }
 
-void GpuScene::drawCasters(frame::PassContext& pass, const PlannedMap& map, ShadowCasters faces) const {
-    if (map.casters.empty()) return;
+void GpuScene::drawCasters(frame::PassContext& pass, const ShadowPush& push, std::span<const uint32_t> casters, ShadowCasters faces) const {
+    if (casters.empty()) return;
     bindMeshes(pass);
-    const ShadowPush push = ShadowPlan::push(map);
-    auto caster = map.casters.begin();
+    auto caster = casters.begin();
     for (const Batch& batch : batches_) {
         const uint32_t end = batch.firstObject + batch.objectCount;
-        if (caster == map.casters.end()) return;
+        if (caster == casters.end()) return;
         if (*caster >= end) continue;
         const DrawMaterial& material = drawMaterials_[batch.material];
         if (material.masked) {
@@ -535,11 +572,11 @@ void GpuScene::drawCasters(frame::PassContext& pass, const PlannedMap& map, Shad
         pass.commands.setCullMode(faces == ShadowCasters::frontFaces  ? vk::CullModeFlagBits::eBack
                                   : faces == ShadowCasters::backFaces ? vk::CullModeFlagBits::eFront
                                                                       : vk::CullModeFlagBits::eNone);
-        while (caster != map.casters.end() && *caster < end) {
+        while (caster != casters.end() && *caster < end) {
             Batch run = batch;
             run.firstObject = *caster;
             run.objectCount = 0;
-            for (; caster != map.casters.end() && *caster == run.firstObject + run.objectCount && *caster < end; ++caster) ++run.objectCount;
+            for (; caster != casters.end() && *caster == run.firstObject + run.objectCount && *caster < end; ++caster) ++run.objectCount;
             drawBatch(pass, run);
         }
     }

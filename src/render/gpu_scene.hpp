@@ -63,8 +63,10 @@ public:
     /// there are of each shape, what they use, where the table lies, and the meshes that bound any
     /// \throws Error(limit) for more lights than a table holds; then the old ones stay
     bool setLights(std::span<const Light> lights);
-    /// Another number after each setLights, for whoever looked at single lights.
-    uint32_t lightsVersion() const { return lightsVersion_; }
+    /// Moves objects. \throws Error(scene), and none has moved, then
+    void moveObjects(std::span<const MovedObject> moved);
+    /// Another number after each of these, for whoever looked at single lights or objects.
+    uint32_t version() const { return version_; }
 
     /// Makes room for the lights of the bounce that the settings ask for, if they aren't those of the last call. \return whether so
     /// \throws Error(usage) for a light that can't bounce, Error(limit) for more lights than a table holds
@@ -104,8 +106,8 @@ public:
 
     /// Draws the surfaces that hide what is behind them: their depth, or shaded.
     void drawDepth(frame::PassContext& pass) const;
-    /// Draws those of them that cast into a shadow map, as its light sees them.
-    void drawCasters(frame::PassContext& pass, const PlannedMap& map, ShadowCasters faces) const;
+    /// Draws some of them, as a light sees them. \param casters places in the table of objects, rising
+    void drawCasters(frame::PassContext& pass, const shared::ShadowPush& push, std::span<const uint32_t> casters, ShadowCasters faces) const;
     void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading) const;
     /// Calls `draw` for each batch of them with its material bound, for whoever draws parts of it, or draws it more than once.
     void drawSurfaces(frame::PassContext& pass, const SurfaceShading& shading, const std::function<void(const Batch&)>& draw) const;
@@ -151,11 +153,15 @@ private:
     std::vector<MeshRange> meshes_;
     gpu::Buffer objects_, materials_, drawnMaterials_, links_;
     gpu::Buffer lightTable_, lightKinds_, volumeTable_, volumeVertices_, volumeIndices_;
-    gpu::MappedBuffer view_, bounceView_, lightStaging_;
+    gpu::MappedBuffer view_, bounceView_, staging_;
     gpu::Image functions_, lightTree_;
     std::vector<Batch> batches_;
     std::vector<OpaqueObject> opaque_;
     std::vector<ShadowCaster> casters_;               ///< the same objects
+    std::vector<Bounds> meshBounds_;                  ///< object space
+    std::vector<uint32_t> placeOfObject_;             ///< in the table, by index in Scene::objects; kNone: not drawn
+    std::vector<shared::ObjectConstants> objectTable_;
+    std::vector<uint32_t> meshOfObject_;
     std::vector<std::vector<bool>> castingObjects_;   ///< LinkGroup::castingObjects
     std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
@@ -166,7 +172,7 @@ private:
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::DescriptorSet frameSet_, bounceSet_;
     std::vector<Light> sceneLights_;
-    uint32_t lightsVersion_ = 0;
+    uint32_t version_ = 0;
     uint32_t functionCount_ = 0;
     SortedLights lights_;
     std::optional<Bounce> bounce_;

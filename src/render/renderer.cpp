@@ -44,7 +44,7 @@ struct FrameKey {
     bool counts;  ///< the technique runs a second time and counts
     bool lists;   ///< its lists of lights become layers
     LightingAttempt attempt = {};
-    uint32_t lights = 0;                ///< their version, where the host looked at single ones
+    uint32_t version = 0;               ///< of the scene, where the host looked at single lights or objects
     std::optional<Camera> camera = {};  ///< where lights are sorted by where they are seen
     bool operator==(const FrameKey&) const = default;
 };
@@ -115,7 +115,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const frame::BufferId lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable());
     if (scene.bounce()) addBounce(graph, scene, lights);
     const frame::ImageId shadows = scene.shadows().import(graph);
-    if (key.settings.shadows != Shadows::off) scene.shadows().addPass(graph, scene, shadows, key.settings.shadowCasters);
+    if (key.settings.shadows != Shadows::off) scene.shadows().addPasses(graph, scene, shadows, key.settings.shadowCasters);
     LightingReport report;
     LightingInputs lighting{.gbuffer = gbuffer,
                             .scene = scene,
@@ -275,6 +275,11 @@ struct Renderer::Impl {
         const bool changed = gpuScene->setLights(lights);
         if (changed) frame.reset();
         if (advised && (changed || gpuScene->lightCount() != before || ++advised->lightsMoved == render::kMostLightMoves)) advised.reset();
+    }
+
+    void moveObjects(std::span<const MovedObject> moved) {
+        gpuScene->moveObjects(moved);
+        if (advised && ++advised->lightsMoved == render::kMostLightMoves) advised.reset();
     }
 
     /// How the packing that the settings ask for fares on the device.
@@ -450,7 +455,7 @@ struct Renderer::Impl {
         if (gpuScene->setShadows(view, settings)) frame.reset();
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
         render::FrameKey key{view.extent, render::structureOf(settings), others, counts, lists};
-        if (render::plansLights(settings)) key.lights = gpuScene->lightsVersion();
+        if (render::plansLights(settings)) key.version = gpuScene->version();
         if (render::sortsByView(settings, *gpuScene)) key.camera = view.camera;
         // The attempt that did last time, if nothing else has changed and it was not more than needed.
         if (frame) key.attempt = frame->key.attempt;
@@ -504,6 +509,10 @@ const DeviceInfo& Renderer::device() const { return impl_->context.info(); }
 
 void Renderer::setScene(const Scene& scene) {
     translatingVulkanErrors([&] { impl_->setScene(scene); });
+}
+
+void Renderer::moveObjects(std::span<const MovedObject> moved) {
+    translatingVulkanErrors([&] { impl_->moveObjects(moved); });
 }
 
 void Renderer::setLights(std::span<const Light> lights) {

@@ -53,10 +53,23 @@ class PaintedAtlas {
 public:
     /// Draws what is dirty and checks that every map finds what was drawn for it.
     void checkFrame(const ShadowPlan& plan) {
-        if (plan.extent() != extent_) blocks_.clear();
+        if (plan.extent() != extent_) blocks_.clear(), still_.clear();
+        if (!plan.needsStill()) still_.clear();
         extent_ = plan.extent();
-        for (const uint32_t i : plan.dirty()) paint(plan.maps()[i], ++drawings_);
-        size_t overwritten = 0, outside = 0, stale = 0;
+        size_t overwritten = 0, outside = 0, stale = 0, notStill = 0;
+        for (const uint32_t i : plan.dirty()) {
+            const render::PlannedMap& map = plan.maps()[i];
+            paint(map, ++drawings_);
+            if (!map.overStill) continue;
+            CHECK(plan.needsStill());
+            uint64_t& drawing = lastStill_[{map.light, map.face}];
+            if (map.stillDirty) drawing = drawings_;
+            forEachBlock(map.page, [&](uvec2 block) {
+                if (map.stillDirty) still_[{block.x, block.y}] = drawing;
+                notStill += still_[{block.x, block.y}] != drawing || drawing == 0;
+            });
+        }
+        CHECK(notStill == 0);
         for (const render::PlannedMap& map : plan.maps()) {
             if (map.page.side == 0) continue;
             outside += glm::any(glm::greaterThan(map.page.first + map.page.side, extent_));
@@ -87,7 +100,7 @@ private:
 
     uvec2 extent_{0};
     uint64_t drawings_ = 0;
-    std::map<std::pair<uint32_t, uint32_t>, uint64_t> blocks_;
+    std::map<std::pair<uint32_t, uint32_t>, uint64_t> blocks_, still_, lastStill_;
     std::map<std::pair<uint32_t, uint32_t>, Drawn> last_;
 };
 
@@ -181,6 +194,30 @@ TEST_CASE("shadow plan: a light that moved has its own maps drawn, an object tho
     }
     CHECK(drawn > 0);
     CHECK(double(drawn) < 0.2 * double(maps));  // far from all
+}
+
+TEST_CASE("shadow plan: of what moves again only that is drawn, over what stands still") {
+    Room room(60);
+    room.addPoints(12, 8);
+    ShadowPlan plan;
+    plan.update(room.inputs());
+    CHECK_FALSE(plan.needsStill());
+    const auto move = [&] {
+        room.casters[7].boundsWorld = {room.casters[7].boundsWorld.low + vec3(0.01f), room.casters[7].boundsWorld.high + vec3(0.01f)};
+        ++room.casters[7].version, ++room.version;
+        plan.update(room.inputs());
+    };
+    move();
+    REQUIRE(plan.stats().drawn > 0);
+    CHECK(plan.needsStill());
+    for (const uint32_t i : plan.dirty()) CHECK(plan.maps()[i].stillDirty);
+    move();
+    REQUIRE(plan.stats().drawn > 0);
+    for (const uint32_t i : plan.dirty()) {
+        CHECK_FALSE(plan.maps()[i].stillDirty);
+        CHECK(plan.maps()[i].overStill);
+        CHECK(plan.maps()[i].casters == std::vector<uint32_t>{7});
+    }
 }
 
 TEST_CASE("shadow plan: 1,024 point lights have shadows within 256 MiB") {

@@ -18,15 +18,16 @@ static_assert(sizeof(shared::ShadowMap) == 88 && sizeof(shared::ShadowPush) == 7
 }  // namespace
 
 ShadowMaps::ShadowMaps(const gpu::Context& context) : context_(context) {
-    makeAtlas({1, 1});
+    makeAtlas(atlas_, "shadow atlas", {1, 1});
     upload(shadowedLights_, "shadowed lights", std::as_bytes(std::span<const uint32_t>()));
     upload(maps_, "shadow maps", std::as_bytes(std::span<const shared::ShadowMap>()));
 }
 
-void ShadowMaps::makeAtlas(vk::Extent2D extent) {
+void ShadowMaps::makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D extent) {
     using Usage = vk::ImageUsageFlagBits;
-    atlas_ = {};  // first: both may not fit
-    atlas_ = gpu::makeImage(context_, "shadow atlas", {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferDst});
+    atlas = {};  // first: both may not fit
+    atlas = gpu::makeImage(context_, name,
+                           {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst});
     context_.runOnce([&](const vk::raii::CommandBuffer& commands) {
         const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
         const auto turn = [&](vk::ImageLayout from, vk::ImageLayout to) {
@@ -36,12 +37,12 @@ void ShadowMaps::makeAtlas(vk::Extent2D extent) {
                                                   .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
                                                   .oldLayout = from,
                                                   .newLayout = to,
-                                                  .image = *atlas_.handle,
+                                                  .image = *atlas.handle,
                                                   .subresourceRange = all};
             commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
         };
         turn(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
-        commands.clearDepthStencilImage(*atlas_.handle, vk::ImageLayout::eTransferDstOptimal, vk::ClearDepthStencilValue{0.0f, 0}, all);
+        commands.clearDepthStencilImage(*atlas.handle, vk::ImageLayout::eTransferDstOptimal, vk::ClearDepthStencilValue{0.0f, 0}, all);
         turn(vk::ImageLayout::eTransferDstOptimal, kLayout);
     });
 }
@@ -51,7 +52,6 @@ bool ShadowMaps::upload(gpu::Buffer& buffer, const char* name, std::span<const s
     const bool larger = bytes > buffer.bytes;
     if (larger) buffer = gpu::makeBuffer(context_, name, bytes, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
     if (data.empty()) return larger;
-    if (data.size() > staging_.bytes()) staging_ = gpu::MappedBuffer(context_, "shadow staging", data.size(), vk::BufferUsageFlagBits::eTransferSrc);
     gpu::updateBuffer(context_, buffer, data, staging_);
     return larger;
 }
@@ -61,7 +61,13 @@ bool ShadowMaps::update(const ShadowPlan::Inputs& in, uint32_t lightCount) {
     bool changed = false;
     const vk::Extent2D extent{plan_.extent().x, plan_.extent().y};
     if (extent.width > 0 && extent != atlas_.extent) {
-        makeAtlas(extent);
+        still_ = {};
+        makeAtlas(atlas_, "shadow atlas", extent);
+        changed = true;
+    }
+    if (plan_.needsStill() != bool(*still_.handle)) {
+        still_ = {};
+        if (plan_.needsStill()) makeAtlas(still_, "shadow atlas, still", atlas_.extent);
         changed = true;
     }
     std::vector<uint32_t> lights(lightCount, 0);
@@ -89,27 +95,59 @@ frame::ImageId ShadowMaps::import(frame::FrameGraph& graph) const {
     return graph.importImage("shadow-atlas", {kFormat, atlas_.extent}, *atlas_.handle, kLayout);
 }
 
-void ShadowMaps::addPass(frame::FrameGraph& graph, const GpuScene& scene, frame::ImageId atlas, ShadowCasters faces) const {
+namespace {
+
+/// Draws casters into a page.
+void drawPage(frame::PassContext& pass, const GpuScene& scene, const PlannedMap& map, std::span<const uint32_t> casters, ShadowCasters faces, bool clear) {
+    const auto side = map.page.side;
+    const vk::Rect2D page{{int32_t(map.page.first.x), int32_t(map.page.first.y)}, {side, side}};
+    pass.commands.setViewport(0, vk::Viewport{float(page.offset.x), float(page.offset.y), float(side), float(side), 0, 1});
+    pass.commands.setScissor(0, page);
+    if (clear) pass.commands.clearAttachments(vk::ClearAttachment{vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue{0.0f, 0}}, vk::ClearRect{page, 0, 1});
+    scene.drawCasters(pass, ShadowPlan::push(map), casters, faces);
+}
+
+void setDepth(frame::PassContext& pass) {
+    pass.depth(vk::CompareOp::eGreaterOrEqual, true);
+    pass.commands.setDepthBiasEnable(true);
+    pass.commands.setDepthBias(0, 0, -shared::kShadowSlopeBias);  // depth is reversed: away from the light is less
+}
+
+}  // namespace
+
+void ShadowMaps::addPasses(frame::FrameGraph& graph, const GpuScene& scene, frame::ImageId atlas, ShadowCasters faces) const {
+    if (*still_.handle) {
+        const frame::ImageId still = graph.importImage("shadow-still", {kFormat, still_.extent}, *still_.handle, kLayout);
+        graph.addPass("shadow.still").update(still, Access::depthWrite).record([this, &scene, faces](frame::PassContext& pass) {
+            setDepth(pass);
+            for (const uint32_t i : plan_.dirty())
+                if (const PlannedMap& map = plan_.maps()[i]; map.stillDirty) drawPage(pass, scene, map, map.stillCasters, faces, true);
+        });
+        graph.addPass("shadow.copy").read(still, Access::transferRead).update(atlas, Access::transferWrite).record([this, still, atlas](frame::PassContext& pass) {
+            std::vector<vk::ImageCopy> pages;
+            for (const uint32_t i : plan_.dirty()) {
+                const PlannedMap& map = plan_.maps()[i];
+                if (!map.overStill) continue;
+                const vk::ImageSubresourceLayers layer{vk::ImageAspectFlagBits::eDepth, 0, 0, 1};
+                const vk::Offset3D at{int32_t(map.page.first.x), int32_t(map.page.first.y), 0};
+                pages.push_back({layer, at, layer, at, {map.page.side, map.page.side, 1}});
+            }
+            if (!pages.empty())
+                pass.commands.copyImage(pass.image(still), vk::ImageLayout::eTransferSrcOptimal, pass.image(atlas), vk::ImageLayout::eTransferDstOptimal, pages);
+        });
+    }
     graph.addPass("shadow.maps").update(atlas, Access::depthWrite).record([this, &scene, faces](frame::PassContext& pass) {
-        if (plan_.dirty().empty()) return;
-        pass.depth(vk::CompareOp::eGreaterOrEqual, true);
-        pass.commands.setDepthBiasEnable(true);
-        pass.commands.setDepthBias(0, 0, -shared::kShadowSlopeBias);  // depth is reversed: away from the light is less
+        setDepth(pass);
         for (const uint32_t i : plan_.dirty()) {
             const PlannedMap& map = plan_.maps()[i];
-            const auto side = map.page.side;
-            const vk::Rect2D page{{int32_t(map.page.first.x), int32_t(map.page.first.y)}, {side, side}};
-            pass.commands.setViewport(0, vk::Viewport{float(page.offset.x), float(page.offset.y), float(side), float(side), 0, 1});
-            pass.commands.setScissor(0, page);
-            pass.commands.clearAttachments(vk::ClearAttachment{vk::ImageAspectFlagBits::eDepth, 0, vk::ClearDepthStencilValue{0.0f, 0}}, vk::ClearRect{page, 0, 1});
-            scene.drawCasters(pass, map, faces);
+            drawPage(pass, scene, map, map.casters, faces, !map.overStill);
         }
     });
 }
 
 ShadowStats ShadowMaps::stats() const {
     ShadowStats stats = plan_.stats();
-    stats.bytes = atlas_.bytes;
+    stats.bytes = atlas_.bytes + still_.bytes;
     return stats;
 }
 

@@ -286,16 +286,21 @@ void ShadowPlan::add(const Inputs& in, PlannedMap map) {
     const uint32_t group = in.lights[map.light].linkGroup;
     const uint64_t light = signatureOf(map.frustum, group);
     if (kept.casting == 0 || kept.lightSignature != light || kept.version != in.version) {
-        Signature casting;
-        kept.anyCaster = false;
+        Signature casting, standing;
+        kept.anyCaster = kept.anyMoves = false;
         for (uint32_t i = 0; i < in.casters.size(); ++i) {
             if (!castsInto(in, map, i)) continue;
             kept.anyCaster = true;
             casting.add(i).add(in.casters[i].version);
+            if (in.casters[i].version == 0)
+                standing.add(i);
+            else
+                kept.anyMoves = true;
         }
         kept.lightSignature = light;
         kept.version = in.version;
         kept.casting = casting.add(light).value();
+        kept.standing = standing.add(light).value();
     }
     if (!kept.anyCaster) map.side = 0;
     maps_.push_back(std::move(map));
@@ -308,7 +313,8 @@ bool ShadowPlan::castsInto(const Inputs& in, const PlannedMap& map, uint32_t cas
 
 // Maps get coarser until all fit; only if not even the coarsest do, lights go without, those first that are least to be seen.
 void ShadowPlan::fit(const Inputs& in) {
-    const uint64_t most = (uint64_t(in.settings.shadowMemory) << 20) / sizeof(float);
+    anyMoves_ = std::ranges::any_of(in.casters, [](const ShadowCaster& caster) { return caster.casts && caster.version > 0; });
+    const uint64_t most = (uint64_t(in.settings.shadowMemory) << 20) / sizeof(float) / (anyMoves_ ? 2 : 1);
     const uvec2 largest = extentFor(UINT64_MAX, most, in.largestSide);
     const uint64_t capacity = uint64_t(largest.x) * largest.y;
     const auto sideAt = [&](uint32_t side, uint32_t coarser) { return side == 0 ? 0 : std::min(std::max(side >> coarser, kLeastSide), std::min(largest.x, largest.y)); };
@@ -361,7 +367,7 @@ void ShadowPlan::placePages() {
     const auto free = [&](Kept& kept) {
         if (kept.page.side != 0) pages_.free(kept.page);
         kept.page = {};
-        kept.drawn = 0;
+        kept.drawn = kept.still = 0;
     };
     std::vector<PlannedMap*> missing;
     for (PlannedMap& map : maps_) {
@@ -398,19 +404,20 @@ void ShadowPlan::placePages() {
     for (PlannedMap& map : maps_) map.page = kept_.at({map.light, map.face}).page;
 }
 
+uint64_t ShadowPlan::signatureOfPage(const Inputs& in, const PlannedMap& map, uint64_t casting) const {
+    return Signature().add(casting).add(map.page.first.x).add(map.page.first.y).add(map.page.side).add(uint32_t(in.settings.shadowCasters)).value();
+}
+
 void ShadowPlan::chooseDirty(const Inputs& in) {
     dirty_.clear();
     std::vector<ShadowFrustum> asked;
     for (const PlannedMap& map : maps_) asked.push_back(map.frustum);
-    const auto signature = [&](const PlannedMap& map, const Kept& kept) {
-        return Signature().add(kept.casting).add(map.page.first.x).add(map.page.first.y).add(map.page.side).add(uint32_t(in.settings.shadowCasters)).value();
-    };
     for (uint32_t i = 0; i < maps_.size(); ++i) {
         if (maps_[i].page.side == 0) continue;
         ++stats_.maps;
         const Kept& kept = kept_.at({maps_[i].light, maps_[i].face});
         maps_[i].drawn = kept.drawn != 0;
-        if (kept.drawn == signature(maps_[i], kept)) continue;
+        if (kept.drawn == signatureOfPage(in, maps_[i], kept.casting)) continue;
         dirty_.push_back(i);
         if (maps_[i].drawn) maps_[i].frustum = kept.frustum;  // until it is drawn anew
     }
@@ -427,9 +434,17 @@ void ShadowPlan::chooseDirty(const Inputs& in) {
         PlannedMap& map = maps_[i];
         Kept& kept = kept_.at({map.light, map.face});
         map.frustum = kept.frustum = asked[i];
-        for (uint32_t caster = 0; caster < in.casters.size(); ++caster)
-            if (castsInto(in, map, caster)) map.casters.push_back(caster);
-        kept.drawn = signature(map, kept);
+        map.overStill = kept.anyMoves;
+        map.stillDirty = kept.anyMoves && kept.still != signatureOfPage(in, map, kept.standing);
+        for (uint32_t caster = 0; caster < in.casters.size(); ++caster) {
+            if (!castsInto(in, map, caster)) continue;
+            if (!map.overStill || in.casters[caster].version > 0)
+                map.casters.push_back(caster);
+            else if (map.stillDirty)
+                map.stillCasters.push_back(caster);
+        }
+        if (map.stillDirty) kept.still = signatureOfPage(in, map, kept.standing);
+        kept.drawn = signatureOfPage(in, map, kept.casting);
         map.drawn = true;
         ++stats_.drawn;
     }

@@ -18,7 +18,7 @@ struct ShadowCaster {
     Bounds boundsWorld;
     uint32_t objectId;
     bool casts;            ///< its material keeps light off
-    uint32_t version = 0;  ///< another one whenever it has moved
+    uint32_t version = 0;  ///< another one whenever it has moved; 0: it never did, and is taken for one that stands still
 };
 
 /// What a shadow map sees, world space.
@@ -38,8 +38,12 @@ struct PlannedMap {
     double pixels;        ///< how large it is in the picture
     uint32_t side;        ///< texels wanted
     Page page;            ///< side 0: nothing casts into it
-    std::vector<uint32_t> casters = {};  ///< places in the table of objects; known of maps that are drawn
     bool drawn = false;   ///< holds something: now, or once it is drawn in this frame
+    // Of maps that are drawn, as places in the table of objects:
+    std::vector<uint32_t> casters = {};       ///< what is drawn into the page, over a copy of the still page if there is one
+    bool overStill = false;                   ///< there is: what stands still is drawn apart from what moves, and seldom
+    bool stillDirty = false;                  ///< it has to be drawn first
+    std::vector<uint32_t> stillCasters = {};  ///< into it
 };
 
 class ShadowPlan {
@@ -63,6 +67,8 @@ public:
 
     /// Texels that the atlas has to have. It never shrinks but by settings.
     uvec2 extent() const { return pages_.extent(); }
+    /// Whether there has to be another atlas, for what stands still, with the same pages.
+    bool needsStill() const { return anyMoves_; }
     /// The maps of a light follow each other, by face.
     const std::vector<PlannedMap>& maps() const { return maps_; }
     /// Indices into maps(): those to draw in this frame, the most visible first.
@@ -80,9 +86,11 @@ private:
     struct Kept {
         Page page;
         uint64_t drawn = 0;    ///< signature of what the page holds; 0: nothing
+        uint64_t still = 0;    ///< likewise of the still page
         uint64_t casting = 0;  ///< signature of the light and the casters in its frustum, as of `version`
+        uint64_t standing = 0; ///< likewise without those that move
         uint64_t version = 0;
-        bool anyCaster = false;
+        bool anyCaster = false, anyMoves = false;
         ShadowFrustum frustum = {};  ///< that the page was drawn from
         uint64_t lightSignature = 0;
         bool wanted = false;   ///< in this frame
@@ -101,6 +109,7 @@ private:
     void collectLocal(const Inputs& in, uint32_t light);
     void collectDirectional(const Inputs& in, uint32_t light);
     void add(const Inputs& in, PlannedMap map);
+    uint64_t signatureOfPage(const Inputs& in, const PlannedMap& map, uint64_t casting) const;
     static bool castsInto(const Inputs& in, const PlannedMap& map, uint32_t caster);
     void fit(const Inputs& in);
     void placePages();
@@ -111,6 +120,7 @@ private:
     std::vector<PlannedMap> maps_;
     std::vector<uint32_t> dirty_;
     ShadowStats stats_;
+    bool anyMoves_ = false;  ///< some caster did
     std::optional<Asked> last_;  ///< what the plan is for
 };
 
