@@ -341,8 +341,9 @@ TEST_CASE("shadow plan: degenerate lights and views give maps of finite numbers,
             CHECK(plan.stats().maps > 0);
             for (const render::PlannedMap& map : plan.maps()) {
                 const auto constants = ShadowPlan::constants(map, 1, room.view.camera.worldFromView[3]);
-                for (int i = 0; i < 16; ++i) CHECK(std::isfinite(constants.warp[i / 4][i % 4]));
-                CHECK(std::isfinite(constants.texel));
+                for (const float value : {constants.page.center.x, constants.page.center.y, constants.page.reach, constants.page.scale}) CHECK(std::isfinite(value));
+                for (const vec3 row : {constants.right, constants.down, constants.forward, constants.origin})
+                    for (int c = 0; c < 3; ++c) CHECK(std::isfinite(row[c]));
             }
         }
 }
@@ -363,8 +364,8 @@ TEST_CASE("shadow plan: the cascades of a directional light hold all that is see
         double texel = 0;
         for (const render::PlannedMap& map : plan.maps()) {
             const auto constants = ShadowPlan::constants(map, 1, eye);
-            CHECK(double(constants.texel) > texel);
-            texel = constants.texel;
+            CHECK(1 / double(constants.page.scale) > texel);
+            texel = 1 / double(constants.page.scale);
         }
         for (int i = 0; i < 20000; ++i) {
             const dvec3 point = dice.place(10);
@@ -375,8 +376,10 @@ TEST_CASE("shadow plan: the cascades of a directional light hold all that is see
             bool held = false;
             for (size_t m = 0; m < plan.maps().size() && !held; ++m) {
                 const auto constants = ShadowPlan::constants(plan.maps()[m], 1, eye);
-                const vec4 at = constants.warp * vec4(vec3(point - eye), 1);
-                held = glm::all(glm::greaterThan(vec2(at), constants.low)) && glm::all(glm::lessThan(vec2(at), constants.high)) && at.z >= 0 && at.z <= 1;
+                const vec3 Q = vec3(point - eye) - constants.origin;
+                const vec2 at = constants.page.scale * vec2(glm::dot(constants.right, Q), glm::dot(constants.down, Q));
+                const float depth = 1 - constants.fall * glm::dot(constants.forward, Q);
+                held = glm::max(std::abs(at.x), std::abs(at.y)) < constants.page.reach && depth >= 0 && depth <= 1;
                 inCascade[m] += held;
             }
             missed += !held;
@@ -384,5 +387,25 @@ TEST_CASE("shadow plan: the cascades of a directional light hold all that is see
         CHECK(seen > 1000);
         CHECK(missed == 0);
         if (inside) CHECK(plan.maps().size() > 1);
+    }
+}
+
+TEST_CASE("shadow plan: the faces of a cube lie as shaders take them to") {
+    CHECK(luciole::shared::kShadowMapNear == kShadowNear);
+    Room room(300);
+    room.lights = {pointLight(vec3(0), vec3(1), 20)};
+    room.view.camera.worldFromView = glm::translate(mat4(1), vec3(0, 0, 30));
+    ShadowPlan plan;
+    plan.update(room.inputs());
+    REQUIRE(plan.maps().size() == 6);
+    Dice dice(9);
+    for (int i = 0; i < 1000; ++i) {
+        const vec3 v = dice.place(1);
+        const uint32_t face = luciole::shared::cubeFaceOf(v);
+        const render::ShadowFrustum& frustum = plan.maps()[face].frustum;
+        CHECK(plan.maps()[face].face == face);
+        const vec3 found = luciole::shared::inCubeFace(face, v);
+        CHECK(glm::distance(found, vec3(glm::dot(vec3(frustum.right), v), glm::dot(vec3(frustum.down), v), glm::dot(vec3(frustum.forward), v))) < 1e-6f);
+        CHECK(found.z >= std::max(std::abs(found.x), std::abs(found.y)));
     }
 }

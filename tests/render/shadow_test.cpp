@@ -92,13 +92,13 @@ private:
         const Light& light = scene_.lights[map.light];
         const bool directional = light.type == LightType::directional;
         const auto constants = render::ShadowPlan::constants(map, 1, eye_);
-        const vec4 at = constants.warp * vec4(vec3(P - (directional ? eye_ : dvec3(light.positionWorld))), 1);
-        if (constants.texel == 0 || at.w <= 0) return false;
-        const vec2 uv = vec2(at) / at.w;
-        if (glm::any(glm::lessThan(uv, constants.low)) || glm::any(glm::greaterThan(uv, constants.high))) return false;
+        const render::ShadowFrustum& f = map.frustum;
+        const double w = directional ? 1 : dot(f.forward, P - f.origin);
+        const dvec2 at = double(constants.page.scale) / w * dvec2(dot(f.right, P - f.origin), dot(f.down, P - f.origin));
+        if (constants.page.scale == 0 || w <= 0 || std::max(std::abs(at.x), std::abs(at.y)) > double(constants.page.reach)) return false;
         if (!directional && distance(P, dvec3(light.positionWorld)) > double(light.range)) return false;
         const dvec3 L = directional ? -dvec3(light.directionWorld) : normalize(dvec3(light.positionWorld) - P);
-        const double texel = double(constants.texel) * double(at.w), cosine = dot(L, normalOf(receiver));
+        const double texel = w / double(constants.page.scale), cosine = dot(L, normalOf(receiver));
         const bool here = isShadowed(receiver, P, L, light);
         for (const double reach : {1.0, 2.0})
             for (int i = 0; i < 8; ++i) {

@@ -189,7 +189,6 @@ LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     vec3 shares = vec3(0);
     if (usesLights(kUsesLinks) && !linked(light.linkGroup, p.s.objectId)) return termsOf(shares, vec3(0));
     if (usesLights(kUsesVolumes) && arrival.E != vec3(0) && !inVolume(light, p.s.P)) return termsOf(shares, vec3(0));
-    if (usesLights(kUsesShadows) && arrival.E != vec3(0)) arrival.E *= unshadowed(light, p.s.P, p.s.N, arrival.L);
     vec2 keep = vec2(1);
     vec3 shapedV = p.V;
     if (usesLights(kUsesContributions)) {
@@ -198,6 +197,7 @@ LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     }
     if (hasEquation(p, kEquationMetallicRoughness)) shares = sharesMetallicRoughness(p, arrival.L, keep);
     if (hasEquation(p, kEquationShaped)) shares = sharesShaped(p, shapedV, arrival.L, keep);
+    if (usesLights(kUsesShadows) && shares != vec3(0) && arrival.E != vec3(0)) arrival.E *= unshadowed(light, p.s.P, p.s.N);
     return termsOf(shares, arrival.E);
 }
 

@@ -4,19 +4,44 @@
 #include "shared.h"
 SHARED_BEGIN
 
-// One shadow map: a page of the atlas and how to get there. Set 0, kFrameShadowMaps.
-struct ShadowMap {
-    mat4 warp;       // from shading space, with the light (directional: the eye) at the origin, to (u, v, depth, 1) * w; u and v in texels.
-                     // Depth is reversed: kShadowNear / w of lights that are somewhere, else from 1 at the first object to 0 behind the last
-    vec2 low;        // of u and v: the centres of the page's outermost texels
-    vec2 high;
-    float texel;     // metres, the side of a texel at w = 1; 0: nothing keeps light off here
+// The page of a shadow map in the atlas. Depth is reversed: kShadowMapNear / w of lights that are somewhere, w metres along the map's axis; of
+// directional ones from 1 at the first object to 0 behind the last.
+struct ShadowPage {
+    vec2 center;     // texels
+    float reach;     // texels from there to the centres of the outermost ones
+    float scale;     // texels to a metre across the axis at w = 1, of directional lights anywhere; 0: nothing keeps light off here
     float softness;  // Light::shadowSoftness
+};
+
+// One shadow map. Set 0, kFrameShadowMaps.
+struct ShadowMap {
+    ShadowPage page;
+    vec3 right;      // the warp matrix, without what the page does: across, down and along the axis, unit; no cube's
+    vec3 down;
+    vec3 forward;
+    vec3 origin;     // directional: the middle of the nearest side, in shading space
+    float fall;      // directional: of depth in a metre
 };
 
 // Of each light of the scene: how many maps it has and, in the bits above, its first one. Set 0, kFrameShadowedLights.
 const uint kShadowCountBits = 3u;
 const uint kShadowCubeFaces = 6u;  // of a point light, or of a spot too wide for one map
+
+// The face of a cube that a direction leaves through: +x, -x, +y, -y, +z, -z.
+SHARED_FN uint cubeFaceOf(vec3 direction) {
+    const vec3 a = abs(direction);
+    const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+    const float along = axis == 0u ? direction.x : axis == 1u ? direction.y : direction.z;
+    return 2u * axis + (along > 0.0f ? 0u : 1u);
+}
+// A vector across, down and along the axis of a face: as a camera sees it that looks along that axis, up as lookAt has it.
+SHARED_FN vec3 inCubeFace(uint face, vec3 v) {
+    const float side = (face & 1u) == 0u ? 1.0f : -1.0f;
+    const bool x = face < 2u, y = !x && face < 4u;
+    return vec3(side * (x ? v.z : y ? v.x : -v.x), y ? -v.z : -v.y, side * (x ? v.x : y ? v.y : v.z));
+}
+
+const float kShadowMapNear = 0.01f;  // metres; luciole::kShadowNear
 
 // How far along u and v from where a surface is its taps may be, in texels at softness 1, beyond the half texel that every one may be off.
 const float kJitteredReach = 0.5f;

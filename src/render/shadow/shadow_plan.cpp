@@ -473,7 +473,7 @@ dmat4 clipFromLight(const PlannedMap& map, dvec3 origin) {
         rows[2] = dvec4(-f.forward / f.depth, 1);
         rows[3] = dvec4(0, 0, 0, 1);
     } else {
-        rows[2] = dvec4(0, 0, 0, kShadowNear);
+        rows[2] = dvec4(0, 0, 0, kShadowMapNear);
         rows[3] = dvec4(f.forward, 0);
     }
     dmat4 move(1);
@@ -491,15 +491,16 @@ shared::ShadowPush ShadowPlan::push(const PlannedMap& map) {
 shared::ShadowMap ShadowPlan::constants(const PlannedMap& map, float softness, dvec3 eyeWorld) {
     shared::ShadowMap result{};
     if (map.page.side == 0 || !map.drawn) return result;
-    const double side = map.page.side;
-    dmat4 texelsFromClip(1);
-    texelsFromClip[0][0] = texelsFromClip[1][1] = 0.5 * side;
-    texelsFromClip[3] = dvec4(dvec2(map.page.first) + 0.5 * side, 0, 1);
-    result.warp = mat4(texelsFromClip * clipFromLight(map, map.frustum.orthographic ? eyeWorld : dvec3(vec3(map.frustum.origin))));
-    result.low = vec2(map.page.first) + 0.5f;
-    result.high = vec2(map.page.first) + float(side) - 0.5f;
-    result.texel = float(2 * halfWidth(map) / side);
-    result.softness = softness;
+    const ShadowFrustum& f = map.frustum;
+    result.page.center = vec2(map.page.first) + 0.5f * float(map.page.side);
+    result.page.reach = 0.5f * float(map.page.side) - 0.5f;
+    result.page.scale = float(0.5 * map.page.side / halfWidth(map));
+    result.page.softness = softness;
+    result.right = vec3(f.right);
+    result.down = vec3(f.down);
+    result.forward = vec3(f.forward);
+    result.origin = vec3(f.origin - eyeWorld);
+    result.fall = float(1 / f.depth);
     return result;
 }
 
