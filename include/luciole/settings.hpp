@@ -19,7 +19,7 @@ enum class LidrTables : uint8_t { buffers, textures };              ///< where s
 enum class OnOverflow : uint8_t { exact, priority, fail };
 enum class TileSize : uint8_t { automatic, n8, n16, n32 };
 enum class Msaa : uint8_t { x1, x4 };  ///< samples a pixel
-enum class Shadows : uint8_t { off, maps };                    ///< docs/techniques/shadows.md
+enum class Shadows : uint8_t { off, maps, volumes };                    ///< docs/techniques/shadows.md
 enum class ShadowFilter : uint8_t { point, jittered, smooth };  ///< how many texels of a shadow map a surface asks
 enum class ShadowCasters : uint8_t { all, frontFaces, backFaces };  ///< the faces that are drawn into shadow maps, as the light sees them
 

@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 2> kLidrTablesNames{"buffers", "textures"
 constexpr std::array<std::string_view, 3> kOnOverflowNames{"exact", "priority", "fail"};
 constexpr std::array<std::string_view, 4> kTileSizeNames{"auto", "8", "16", "32"};
 constexpr std::array<std::string_view, 2> kMsaaNames{"1", "4"};
-constexpr std::array<std::string_view, 2> kShadowsNames{"off", "maps"};
+constexpr std::array<std::string_view, 3> kShadowsNames{"off", "maps", "volumes"};
 constexpr std::array<std::string_view, 3> kShadowFilterNames{"point", "jittered", "smooth"};
 constexpr std::array<std::string_view, 3> kShadowCastersNames{"all", "front-faces", "back-faces"};
 constexpr std::array<std::string_view, 4> kToneMapNames{"none", "reinhard", "aces", "agx"};
@@ -143,7 +143,7 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::shadows, kShadowsNames>("shadows", "what keeps light off what lies behind objects"),
         choice<&RenderSettings::shadowFilter, kShadowFilterNames>("shadow-filter", "shadow maps: one texel, four that are jittered, or all within the softness"),
         choice<&RenderSettings::shadowCasters, kShadowCastersNames>("shadow-casters", "shadow maps: faces that are drawn, as the light sees them"),
-        number<&RenderSettings::shadowMemory>("shadow-memory", "shadow maps: MiB that they may take; maps get coarser before a light goes without", 1, 4096),
+        number<&RenderSettings::shadowMemory>("shadow-memory", "MiB that shadows may take; maps get coarser before a light goes without", 1, 4096),
         number<&RenderSettings::shadowRedraws>("shadow-redraws", "shadow maps: drawn in one frame at most, the most visible first; 0: all that need it", 0, 65536),
         onOff<&RenderSettings::cullLights>("cull-lights", "leave out lights whose shape covers no pixel; off to measure what that saves"),
         number<&RenderSettings::exposureEv>("exposure", "stops, added to the scene's own exposure", -64, 64),

@@ -28,6 +28,9 @@ using Usage = vk::BufferUsageFlagBits;
 constexpr vk::DeviceSize kUniformLightBytes = kUniformLights * sizeof(PackedLight);
 constexpr vk::DeviceSize kUniformLightKindBytes = kUniformLightKinds * sizeof(LightKind);
 
+/// What shadow volumes are made from.
+constexpr auto kReadByVolumes = Usage::eStorageBuffer | Usage::eTransferSrc;
+
 /// For textures of which single texels are read.
 constexpr Sampler kTexels{.wrapU = Wrap::clampToEdge, .wrapV = Wrap::clampToEdge, .magFilter = Filter::nearest, .minFilter = Filter::nearest, .mipFilter = MipFilter::none};
 
@@ -126,7 +129,7 @@ gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, co
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
     : context_(context), sceneLights_(scene.lights), functionCount_(uint32_t(scene.functions.size())), volumes_(volumeTables(scene)),
       objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
-      exposureEv_(scene.exposureEv), boundsWorld_(luciole::boundsOf(scene)), shadows_(context) {
+      exposureEv_(scene.exposureEv), boundsWorld_(luciole::boundsOf(scene)), shadows_(context), shadowVolumes_(context) {
     for (const LinkGroup& group : scene.linkGroups) castingObjects_.push_back(group.castingObjects);
     uploadMeshes(scene);
     uploadObjects(scene);
@@ -159,12 +162,12 @@ void GpuScene::uploadMeshes(const Scene& scene) {
         if (vertices.size() + mesh.vertices.size() > INT32_MAX || indices.size() + mesh.indices.size() > UINT32_MAX)
             throw Error(ErrorKind::limit, fmt::format("meshes: expected at most {} vertices and {} indices in all, got more at \"{}\"",
                                                       INT32_MAX, UINT32_MAX, mesh.name));
-        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), int32_t(vertices.size())});
+        meshes_.push_back({uint32_t(indices.size()), uint32_t(mesh.indices.size()), uint32_t(vertices.size())});
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
-    vertices_ = gpu::uploadBuffer(context_, "vertices", vertices, Usage::eVertexBuffer);
-    indices_ = gpu::uploadBuffer(context_, "indices", indices, Usage::eIndexBuffer);
+    vertices_ = gpu::uploadBuffer(context_, "vertices", vertices, Usage::eVertexBuffer | kReadByVolumes);
+    indices_ = gpu::uploadBuffer(context_, "indices", indices, Usage::eIndexBuffer | kReadByVolumes);
 }
 
 void GpuScene::uploadObjects(const Scene& scene) {
@@ -179,7 +182,6 @@ void GpuScene::uploadObjects(const Scene& scene) {
     std::ranges::stable_sort(order, {}, batchOf);
     std::vector<ObjectConstants>& table = objectTable_;
     placeOfObject_.assign(scene.objects.size(), kNone);
-    for (const Object& object : scene.objects) meshOfObject_.push_back(object.mesh);
     for (const Mesh& mesh : scene.meshes) meshBounds_.push_back(boundsOf(mesh.vertices | std::views::transform(&Vertex::position), mat4(1)));
     for (const uint32_t i : order) {
         const auto [blended, material, mesh, flipped] = batchOf(i);
@@ -187,6 +189,7 @@ void GpuScene::uploadObjects(const Scene& scene) {
         const bool joins = !table.empty() && batchOf(order[table.size() - 1]) == batchOf(i);
         const Bounds bounds = boundsOf(scene.meshes[mesh].vertices | std::views::transform(&Vertex::position), scene.objects[i].worldFromObject);
         placeOfObject_[i] = uint32_t(table.size());
+        meshOfPlace_.push_back(mesh);
         if (!blended) {
             opaque_.push_back({scene.objects[i].objectId, bounds});
             casters_.push_back({bounds, scene.objects[i].objectId, scene.materials[material].castsShadows});
@@ -199,7 +202,7 @@ void GpuScene::uploadObjects(const Scene& scene) {
             batches_.push_back(alone);
         table.push_back(objectConstants(scene.objects[i]));
     }
-    objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eVertexBuffer);
+    objects_ = gpu::uploadBuffer(context_, "objects", table, Usage::eVertexBuffer | kReadByVolumes);
 }
 
 void GpuScene::moveObjects(std::span<const MovedObject> moved) {
@@ -221,7 +224,7 @@ void GpuScene::moveObjects(std::span<const MovedObject> moved) {
         const uint32_t place = placeOfObject_[object.object];
         ObjectConstants& constants = objectTable_[place];
         constants = objectConstants({.material = constants.material - 1, .worldFromObject = object.worldFromObject, .objectId = constants.objectId});
-        const Bounds& mesh = meshBounds_[meshOfObject_[object.object]];
+        const Bounds& mesh = meshBounds_[meshOfPlace_[place]];
         std::array<vec3, 8> corners;
         for (uint32_t i = 0; i < 8; ++i) corners[i] = {i & 1 ? mesh.high.x : mesh.low.x, i & 2 ? mesh.high.y : mesh.low.y, i & 4 ? mesh.high.z : mesh.low.z};
         const Bounds bounds = boundsOf(corners, object.worldFromObject);
@@ -423,6 +426,7 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
     };
     const auto storage = vk::DescriptorType::eStorageBuffer, uniform = vk::DescriptorType::eUniformBuffer;
     const vk::DeviceSize most = context_.limits().maxUniformBufferRange;
+    const bool stencilled = shadowKind_ == Shadows::volumes;
     const Binding bindings[] = {{kFrameView, view, uniform, VK_WHOLE_SIZE},
                                 {kFrameMaterials, *materials_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameUniformMaterials, *materials_.handle, uniform, std::min<vk::DeviceSize>(kUniformMaterials * sizeof(MaterialConstants), most)},
@@ -433,8 +437,8 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
                                 {kFrameUniformLightKinds, *lightKinds_.handle, uniform, std::min(kUniformLightKindBytes, most)},
                                 {kFrameVolumes, *volumeTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameShadowedLights, shadows_.shadowedLights(), storage, VK_WHOLE_SIZE},
-                                {kFrameShadowMaps, shadows_.maps(), storage, VK_WHOLE_SIZE}};
+                                {kFrameShadowedLights, stencilled ? shadowVolumes_.shadowedLights() : shadows_.shadowedLights(), storage, VK_WHOLE_SIZE},
+                                {kFrameShadowMaps, stencilled ? shadowVolumes_.mask() : shadows_.maps(), storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
         context_.device().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
@@ -471,23 +475,32 @@ bool GpuScene::setShadows(const View& view, const RenderSettings& settings) {
     const auto castsFor = [&](uint32_t group, uint32_t objectId) {
         return group == kNone || (objectId < castingObjects_[group].size() && castingObjects_[group][objectId]);
     };
+    const ShadowPlan::Inputs in{.view = view,
+                                .settings = settings,
+                                .lights = sceneLights_,
+                                .casters = casters_,
+                                .boundsWorld = boundsWorld_,
+                                .castsFor = castsFor,
+                                .largestSide = std::min({context_.limits().maxImageDimension2D, context_.limits().maxFramebufferWidth, context_.limits().maxFramebufferHeight}),
+                                .version = version_};
     const auto images = shadows_.images();
-    const bool changed = shadows_.update({.view = view,
-                                          .settings = settings,
-                                          .lights = sceneLights_,
-                                          .casters = casters_,
-                                          .boundsWorld = boundsWorld_,
-                                          .castsFor = castsFor,
-                                          .largestSide = std::min({context_.limits().maxImageDimension2D, context_.limits().maxFramebufferWidth, context_.limits().maxFramebufferHeight}),
-                                          .version = version_},
-                                         lightCount());
-    if (changed) writeFrameSets();
-    return shadows_.images() != images;
+    const bool volumes = settings.shadows == Shadows::volumes;
+    const bool changed = volumes ? shadowVolumes_.update(in, volumeMeshes(), lightCount()) : shadows_.update(in, lightCount());
+    if (changed || shadowKind_ != settings.shadows) {
+        shadowKind_ = settings.shadows;
+        writeFrameSets();
+    }
+    return (volumes && changed) || shadows_.images() != images;
+}
+
+ShadowVolumes::Meshes GpuScene::volumeMeshes() const {
+    return {.ranges = meshes_, .vertices = vertices_, .indices = indices_, .objects = objects_, .meshOfObject = meshOfPlace_};
 }
 
 void GpuScene::setView(const View& view, const RenderSettings& settings, GBufferLayout layout) {
     viewConstants_ = render::viewConstants(view, ambience_);
     viewConstants_.lightCount = lightCount();
+    viewConstants_.shadowMaskWords = shadowVolumes_.maskWords();
     viewConstants_.linkWords = linkWords_;
     viewConstants_.exposure = std::exp2(exposureEv_ + settings.exposureEv);
     viewConstants_.cullLights = settings.cullLights;

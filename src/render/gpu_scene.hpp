@@ -10,6 +10,7 @@
 #include "gpu/pipelines.hpp"
 #include "gpu/resources.hpp"
 #include "render/shadow/shadow_maps.hpp"
+#include "render/shadow/shadow_volumes.hpp"
 #include "render/tables.hpp"
 
 namespace luciole::render {
@@ -77,6 +78,8 @@ public:
     /// Plans the shadow maps of a frame (shadow_plan.hpp). \return whether a frame graph made before won't do: it knows the atlas
     /// \throws as ShadowPlan::update
     bool setShadows(const View& view, const RenderSettings& settings);
+    const ShadowVolumes& shadowVolumes() const { return shadowVolumes_; }
+    ShadowVolumes::Meshes volumeMeshes() const;
     ShadowMaps& shadows() { return shadows_; }
     const ShadowMaps& shadows() const { return shadows_; }
 
@@ -124,10 +127,7 @@ public:
     void drawBlended(frame::PassContext& pass, const std::vector<SurfaceShading>& shadings) const;
 
 private:
-    struct MeshRange {
-        uint32_t firstIndex, indexCount;
-        int32_t firstVertex;
-    };
+    using MeshRange = ShadowVolumes::Meshes::Range;
     struct DrawMaterial {
         uint32_t surfaceShader, inputs;  ///< kSurfaceShader and kInputs (surface_input.glsl)
         uint32_t equation;
@@ -161,7 +161,7 @@ private:
     std::vector<Bounds> meshBounds_;                  ///< object space
     std::vector<uint32_t> placeOfObject_;             ///< in the table, by index in Scene::objects; kNone: not drawn
     std::vector<shared::ObjectConstants> objectTable_;
-    std::vector<uint32_t> meshOfObject_;
+    std::vector<uint32_t> meshOfPlace_;
     std::vector<std::vector<bool>> castingObjects_;   ///< LinkGroup::castingObjects
     std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
@@ -183,6 +183,8 @@ private:
     float exposureEv_ = 0;
     Bounds boundsWorld_;  ///< of all objects
     ShadowMaps shadows_;
+    ShadowVolumes shadowVolumes_;
+    Shadows shadowKind_ = Shadows::off;  ///< whose buffers the frame's set names
     uint32_t equations_ = 0;
     uint32_t lightFeatures_ = 0;
     std::vector<uint32_t> linkTable_;

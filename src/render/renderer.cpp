@@ -93,6 +93,7 @@ bool needsStencil(const LightingTechnique& technique, const GpuScene& scene) {
 /// What lighting shaders have to know of shadows (types.shared.h).
 uint32_t shadowFeatures(const RenderSettings& settings) {
     if (settings.shadows == Shadows::off) return 0;
+    if (settings.shadows == Shadows::volumes) return shared::kUsesShadows | shared::kShadowsStencilled;
     const uint32_t filters[] = {0, shared::kShadowsJittered, shared::kShadowsSmooth};
     return shared::kUsesShadows | filters[size_t(settings.shadowFilter)];
 }
@@ -102,7 +103,8 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const vk::Extent2D extent{key.extent.x, key.extent.y};
     frame::FrameGraph graph;
     const LightingTechnique& technique = techniqueNamed(key.settings.lighting);
-    const GBuffer gbuffer = createGBuffer(graph, key.settings.gbuffer, extent, needsStencil(technique, scene));
+    const bool volumes = key.settings.shadows == Shadows::volumes;
+    const GBuffer gbuffer = createGBuffer(graph, key.settings.gbuffer, extent, needsStencil(technique, scene) || volumes);
     const auto radianceFormat = key.settings.lightBuffer == LightBufferFormat::rgba32f ? vk::Format::eR32G32B32A32Sfloat
                                                                                        : vk::Format::eR16G16B16A16Sfloat;
     const frame::ImageId radiance = graph.createImage("radiance", {radianceFormat, extent});
@@ -115,13 +117,19 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     const frame::BufferId lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable());
     if (scene.bounce()) addBounce(graph, scene, lights);
     const frame::ImageId shadows = scene.shadows().import(graph);
-    if (key.settings.shadows != Shadows::off) scene.shadows().addPasses(graph, scene, shadows, key.settings.shadowCasters);
+    if (key.settings.shadows == Shadows::maps) scene.shadows().addPasses(graph, scene, shadows, key.settings.shadowCasters);
+    std::optional<frame::BufferId> shadowMask;
+    if (volumes) {
+        shadowMask = scene.shadowVolumes().import(graph);
+        scene.shadowVolumes().addPasses(graph, *shadowMask, gbuffer.depth, scene.volumeMeshes());
+    }
     LightingReport report;
     LightingInputs lighting{.gbuffer = gbuffer,
                             .scene = scene,
                             .constants = constants,
                             .lights = lights,
                             .shadows = shadows,
+                            .shadowMask = shadowMask,
                             .depth = gbuffer.depth,
                             .settings = key.settings,
                             .attempt = key.attempt,
@@ -452,6 +460,10 @@ struct Renderer::Impl {
         const bool others = std::ranges::any_of(aovs, [](const std::string& aov) { return !render::isCount(aov) && !isListLayer(aov); });
         if (lists) render::requireLists(settings.lighting);
         if (gpuScene->setBounce(settings)) frame.reset();  // it knows the tables that were
+        if (settings.shadows == Shadows::volumes && settings.msaa != Msaa::x1)
+            throw Error(ErrorKind::usage, "shadows: volumes expect msaa 1, as a pixel's stencil knows one surface (maps take several samples)");
+        if (settings.shadows == Shadows::volumes && gpuScene->hasBlended())
+            throw Error(ErrorKind::usage, "shadows: volumes expect a scene without surfaces that blend, as a pixel's stencil knows the one behind them (maps shadow all)");
         if (gpuScene->setShadows(view, settings)) frame.reset();
         gpuScene->setView(view, settings, render::structureOf(settings).gbuffer);
         render::FrameKey key{view.extent, render::structureOf(settings), others, counts, lists};
@@ -469,13 +481,14 @@ struct Renderer::Impl {
             gpuScene->shadows().forget();
             throw;
         }
-        if (settings.shadows != Shadows::off) stats.shadows = gpuScene->shadows().stats();
+        if (settings.shadows == Shadows::maps) stats.shadows = gpuScene->shadows().stats();
+        if (settings.shadows == Shadows::volumes) stats.shadows = gpuScene->shadowVolumes().stats();
         if (stats.lightIndex) stats.lightIndex->selfTestMs = tried.ms, stats.lightIndex->wrongValues = tried.wrong;
 
         Frame result = render::readOutputs(frame->executor, frame->outputs, view.extent, settings.lightBuffer, aovs);
         stats.passes = frame->executor.stats();
         for (const PassStats& pass : stats.passes)
-            if (stats.shadows && pass.name == "shadow.maps") stats.shadows->casterDraws = pass.draws;
+            if (stats.shadows && pass.name.starts_with("shadow.")) stats.shadows->casterDraws += pass.draws;
         stats.recordMs = frame->executor.recordMs();
         stats.peakBytes = context.peakBytes();
         stats.triangles = gpuScene->triangles();

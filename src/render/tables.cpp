@@ -15,7 +15,7 @@ namespace luciole::render {
 using namespace shared;
 
 // As the shaders lay them out (scalar block layout).
-static_assert(sizeof(ViewConstants) == 348);
+static_assert(sizeof(ViewConstants) == 352);
 static_assert(sizeof(TextureSlot) == 28);
 static_assert(sizeof(SurfaceConstants) == 84 + kTextureSlots * sizeof(TextureSlot));
 static_assert(sizeof(MaterialConstants) == 36);

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define WITHOUT_PIXELS
 #include "render/geometry/gbuffer_read.glsl"
 #include "render/lighting/bounce.shared.h"
 #include "render/lighting/light_volume.shared.h"

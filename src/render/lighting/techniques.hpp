@@ -36,6 +36,7 @@ struct LightingInputs {
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
     frame::BufferId lights;           ///< the table of lights, which the frame's set names
     frame::ImageId shadows;           ///< the atlas of shadow maps, likewise
+    std::optional<frame::BufferId> shadowMask = {};  ///< of shadow volumes, likewise
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
     std::string phase = "lighting.";  ///< what the names of passes begin with
@@ -48,7 +49,10 @@ struct LightingInputs {
     bool counting() const { return (constants[shared::kConstantLights] & shared::kCountsLights) != 0; }
 
     /// Declares that a pass reads lights, and what keeps them off.
-    void readLightsBy(frame::PassBuilder& pass) const { pass.read(lights, frame::Access::tableRead).read(shadows, frame::Access::tableSampled); }
+    void readLightsBy(frame::PassBuilder& pass) const {
+        pass.read(lights, frame::Access::tableRead).read(shadows, frame::Access::tableSampled);
+        if (shadowMask) pass.read(*shadowMask, frame::Access::tableRead);
+    }
 
     /// Declares that a pass reads G-buffer and lights, and tests against depth (see readGBuffer).
     void readBy(frame::PassBuilder& pass, frame::Access depthAccess = frame::Access::depthTest) const {

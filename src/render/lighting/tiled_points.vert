@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define WITHOUT_PIXELS
 #extension GL_EXT_control_flow_attributes : require
 #include "render/lighting/light_texels.glsl"
 #include "render/lighting/light_tiles.glsl"

@@ -22,6 +22,7 @@ struct ViewConstants {
     vec2 clipScale;        // clipFromView[0][0] and -clipFromView[1][1]
     float zNear;
     uint cullLights;       // 0: lights that cover no pixel are drawn all the same
+    uint shadowMaskWords;  // of a pixel's mask of shadow volumes
 };
 
 // What the geometry phase needs of a material.
@@ -120,6 +121,7 @@ const uint kUniformLightKinds = 4096u;      // of 16 bytes
 const uint kUsesShadows = 2048u;            // shadow maps keep light off (shadow.glsl), by enum ShadowFilter:
 const uint kShadowsJittered = 4096u;
 const uint kShadowsSmooth = 8192u;
+const uint kShadowsStencilled = 16384u;     // shadow volumes do
 
 SHARED_END
 #endif

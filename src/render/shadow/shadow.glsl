@@ -7,6 +7,7 @@
 
 layout(set = 0, binding = 13, scalar) readonly buffer ShadowedLights { uint shadowedLights[]; };
 layout(set = 0, binding = 14, scalar) readonly buffer ShadowMaps { ShadowMap shadowMaps[]; };
+layout(set = 0, binding = 14, scalar) readonly buffer ShadowMask { uint shadowMask[]; };  // instead, with shadow volumes
 layout(set = 0, binding = 15) uniform sampler2D shadowAtlas;
 
 // Metres by which rounding and the G-buffer's layout may have moved a surface (viewSlack in tables.cpp); where vertices are snapped to moves it
@@ -63,11 +64,22 @@ uint cascadeOf(uint first, uint count, vec3 P) {
     return first + count - 1u;
 }
 
+// Whether shadow volumes hide the pixel's surface from a light. WITHOUT_PIXELS: there is none, in a compute shader.
+bool isMarked(uint light) {
+#ifdef WITHOUT_PIXELS
+    return false;
+#else
+    const uint pixel = uint(gl_FragCoord.y) * uint(view.extent.x) + uint(gl_FragCoord.x);
+    return (shadowMask[pixel * view.shadowMaskWords + light / 32u] >> (light % 32u) & 1u) != 0u;
+#endif
+}
+
 // The share of a light that arrives at P, where the surface has normal N.
 float unshadowed(LightConstants light, vec3 P, vec3 N) {
     const uint maps = shadowedLights[light.sceneIndex];
     const uint count = maps & ((1u << kShadowCountBits) - 1u);
     if (count == 0u) return 1.0;
+    if (usesLights(kShadowsStencilled)) return isMarked(maps >> kShadowCountBits) ? 0.0 : 1.0;
     const bool directional = usesLights(kUsesDirectional) && light.type == kLightDirectional, cube = count == kShadowCubeFaces;
     vec3 Q = P - light.position;
     const uint face = cubeFaceOf(Q);

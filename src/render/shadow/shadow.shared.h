@@ -25,6 +25,7 @@ struct ShadowMap {
 
 // Of each light of the scene: how many maps it has and, in the bits above, its first one. Set 0, kFrameShadowedLights.
 const uint kShadowCountBits = 3u;
+const uint kShadowVolumes = 7u;    // none: its first map is its bit of each pixel's mask (shadow_volumes.hpp)
 const uint kShadowCubeFaces = 6u;  // of a point light, or of a spot too wide for one map
 
 // The face of a cube that a direction leaves through: +x, -x, +y, -y, +z, -z.
