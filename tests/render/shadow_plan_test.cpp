@@ -5,6 +5,7 @@
 #include <set>
 
 #include "random_scenes.hpp"
+#include "render/shadow/mesh_edges.hpp"
 #include "scene_building.hpp"
 
 using namespace luciole;
@@ -407,5 +408,49 @@ TEST_CASE("shadow plan: the faces of a cube lie as shaders take them to") {
         const vec3 found = luciole::shared::inCubeFace(face, v);
         CHECK(glm::distance(found, vec3(glm::dot(vec3(frustum.right), v), glm::dot(vec3(frustum.down), v), glm::dot(vec3(frustum.forward), v))) < 1e-6f);
         CHECK(found.z >= std::max(std::abs(found.x), std::abs(found.y)));
+    }
+}
+
+TEST_CASE("mesh edges: a closed mesh has each edge once, with two triangles that run through it in opposite directions") {
+    const std::vector<uint32_t> box{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const std::vector<vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const std::vector<uvec2> edges = render::edgesOf(corners, box);
+    CHECK(edges.size() == 6);
+    for (const uvec2 edge : edges) {
+        CHECK(edge.y != kNone);
+        CHECK(edge.y % 4 == 0);
+        CHECK(edge.x / 4 != edge.y / 4);
+    }
+    // The same with vertices of its own for each triangle.
+    std::vector<vec3> own;
+    std::vector<uint32_t> order;
+    for (const uint32_t i : box) order.push_back(uint32_t(own.size())), own.push_back(corners[i]);
+    CHECK(render::edgesOf(own, order).size() == 6);
+}
+
+TEST_CASE("mesh edges: open, degenerate and crowded ones; whatever a triangle's side, what turns about an edge adds up") {
+    CHECK(render::edgesOf({}, {}).empty());
+    const std::vector<vec3> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+    const std::vector<uint32_t> triangle{0, 1, 2}, line{0, 1, 1};
+    CHECK(render::edgesOf(corners, triangle) == std::vector<uvec2>{{2, kNone}, {0, kNone}, {1, kNone}});
+    CHECK(render::edgesOf(corners, line).size() == 1);
+    Dice dice(4);
+    for (int round = 0; round < 200; ++round) {
+        std::vector<uint32_t> indices;
+        for (uint32_t i = 0, count = 1 + dice.below(12); i < 3 * count; ++i) indices.push_back(dice.below(5));
+        std::vector<int> side;
+        for (size_t t = 0; t < indices.size() / 3; ++t) side.push_back(dice.below(2) == 0 ? -1 : 1);
+        std::map<std::pair<uint32_t, uint32_t>, int> expected, found;  // by rising edge
+        const auto add = [&](auto& turns, uint32_t a, uint32_t b, int by) {
+            if (a != b) turns[std::minmax(a, b)] += a < b ? by : -by;
+        };
+        const auto run = [&](uint32_t from) { return std::pair(indices[3 * (from / 4) + from % 4], indices[3 * (from / 4) + (from % 4 + 1) % 3]); };
+        for (uint32_t t = 0; t < indices.size() / 3; ++t)
+            for (uint32_t c = 0; c < 3; ++c) add(expected, run(4 * t + c).first, run(4 * t + c).second, side[t]);
+        for (const uvec2 edge : render::edgesOf(corners, indices)) {
+            const auto [a, b] = run(edge.x);
+            add(found, a, b, side[edge.x / 4] + (edge.y == kNone ? 0 : (edge.y % 4 == 1 ? 1 : -1) * side[edge.y / 4]));
+        }
+        CHECK(expected == found);
     }
 }
