@@ -16,6 +16,7 @@ enum class LidrIndices : uint8_t { automatic, n15, n255, n65535 };  ///< largest
 enum class LidrCover : uint8_t { automatic, surface, frontFaces };  ///< lights that reach the surface; all before it
 enum class LidrTypes : uint8_t { flag, one, targets };              ///< what becomes of several types of light
 enum class LidrTables : uint8_t { buffers, textures };              ///< where surfaces read lights by index
+enum class LidrShadows : uint8_t { finalPass, index, indexSoft, none };  ///< where lights with an index meet their shadows
 enum class OnOverflow : uint8_t { exact, priority, fail };
 enum class TileSize : uint8_t { automatic, n8, n16, n32 };
 enum class Msaa : uint8_t { x1, x4 };  ///< samples a pixel
@@ -37,6 +38,7 @@ struct RenderSettings {
     LidrCover lidrCover = LidrCover::automatic;
     LidrTypes lidrTypes = LidrTypes::flag;
     LidrTables lidrTables = LidrTables::buffers;
+    LidrShadows lidrShadows = LidrShadows::finalPass;
     bool lidrShare = false;
     TileSize tileSize = TileSize::automatic;  ///< pixels; tiled and clustered techniques
     std::string bounceLight = "none";  ///< the light whose first bounce is shown: a light's name, or its index in Scene::lights

@@ -24,6 +24,7 @@ constexpr std::array<std::string_view, 4> kLidrIndicesNames{"auto", "15", "255",
 constexpr std::array<std::string_view, 3> kLidrCoverNames{"auto", "surface", "front-faces"};
 constexpr std::array<std::string_view, 3> kLidrTypesNames{"flag", "one", "targets"};
 constexpr std::array<std::string_view, 2> kLidrTablesNames{"buffers", "textures"};
+constexpr std::array<std::string_view, 4> kLidrShadowsNames{"final", "index", "index-soft", "none"};
 constexpr std::array<std::string_view, 3> kOnOverflowNames{"exact", "priority", "fail"};
 constexpr std::array<std::string_view, 4> kTileSizeNames{"auto", "8", "16", "32"};
 constexpr std::array<std::string_view, 2> kMsaaNames{"1", "4"};
@@ -132,6 +133,7 @@ std::span<const Setting> settingsTable() {
         choice<&RenderSettings::lidrCover, kLidrCoverNames>("lidr-cover", "light-indexed: which lights a pixel indexes"),
         choice<&RenderSettings::lidrTypes, kLidrTypesNames>("lidr-types", "light-indexed: indices for all types of light by a flag, for points only, or in targets of their own"),
         choice<&RenderSettings::lidrTables, kLidrTablesNames>("lidr-tables", "light-indexed: where surfaces read the data of lights"),
+        choice<&RenderSettings::lidrShadows, kLidrShadowsNames>("lidr-shadows", "light-indexed: lights meet their shadows at surfaces, or as indices are written: no index in shadow, or one with how much is lit; or never"),
         onOff<&RenderSettings::lidrShare>("lidr-share", "light-indexed: the light buffer holds the indices before it holds light, where the device allows it"),
         choice<&RenderSettings::tileSize, kTileSizeNames>("tile-size", "tiled and clustered: pixels a side of a tile"),
         Setting{.name = "bounce-light",

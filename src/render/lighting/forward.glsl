@@ -74,14 +74,16 @@ void beginSurface() {
     if (kFirst != 0u) sum = initialLight(s, m);
 }
 
-void addLight(LightConstants light) {
+// `lit`: the share of the light that is known to arrive, besides its shadow.
+void addLight(LightConstants light, float lit) {
 #ifdef COUNTING
     const bool useful = reaches(light, point.s.P, point.s.objectId);
     counted += uvec3(1u, useful, useful ? fingerprint(light.sceneIndex) : 0u);
 #else
-    sum += illuminate(point, light);
+    sum += lit * illuminate(point, light);
 #endif
 }
+void addLight(LightConstants light) { addLight(light, 1.0); }
 
 void endSurface() {
 #ifdef COUNTING

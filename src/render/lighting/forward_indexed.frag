@@ -15,6 +15,8 @@ layout(constant_id = 15) const uint kSets = 1u;      // of images: one, or one a
 #include "render/lighting/light_index_unpack.glsl"
 layout(constant_id = 16) const uint kRemapped = 0u;  // IndexPlan
 
+layout(constant_id = 18) const uint kSoft = 0u;      // the second set of images holds how much of each light arrives
+
 layout(set = 1, binding = kPassStorage + kIndexOrder, scalar) readonly buffer Order { uint order[]; };
 layout(push_constant, scalar) uniform Push { LightSlice rest; };  // of the order: lights without an index
 
@@ -31,19 +33,24 @@ void main() {
 #else
     const int sample_ = 0;  // the only one
 #endif
+    shadowsAsked = !usesLights(kShadowsByIndex);
     for (uint set = 0u; set < kSets; ++set)
         for (uint pass = 0u; pass < kPasses; ++pass) {
             const PackedIndices packed = packedIndices(set, pass, ivec2(gl_FragCoord.xy), sample_);
+            PackedIndices shadows;
+            if (kSoft != 0u) shadows = packedIndices(1u, pass, ivec2(gl_FragCoord.xy), sample_);
             for (uint n = 0u; n < kPerPass; ++n) {
                 const uint index = indexEntry(packed, pass, n);
                 if (index != 0u) {
                     const LightConstants light = indexedLight(index);
-                    if (light.range > 0.0) addLight(light);
+                    const float lit = kSoft != 0u ? litShare(indexEntry(shadows, pass, n), indexLimit(kKind, kIndexBits, kUnit)) : 1.0;
+                    if (light.range > 0.0) addLight(light, lit);
                 } else if (endsAtZero()) {
                     break;
                 }
             }
         }
+    shadowsAsked = true;
     for (uint i = 0u; i < rest.count; ++i) addLight(lightAt(order[rest.first + i]));
     endSurface();
 }

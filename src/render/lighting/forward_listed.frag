@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push { LightSlice rest; };  // of the orde
 // Light-indexed deferred rendering with a list of any length for each pixel.
 void main() {
     beginSurface();
+    shadowsAsked = !usesLights(kShadowsByIndex);
     const uint pixel = uint(gl_FragCoord.y) * uint(view.extent.x) + uint(gl_FragCoord.x);
     const uint end = min(offsets[pixel + 1u], uint(entries.length()));
     for (uint i = offsets[pixel]; i < end; ++i) addLight(lightAt(entries[i]));

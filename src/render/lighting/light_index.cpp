@@ -38,22 +38,24 @@ struct Indexing {
     /// Trebilco 2009, "Buffer Sharing": the light buffer is the index image.
     bool shared() const { return in.settings.lidrShare && !in.counting(); }
     BufferId order, shapes, counters;
+    uint32_t shadowed = shared::kIndexLitOrNot;
+    bool soft = false;  ///< a second set of images has how much of each light arrives
     std::vector<ImageId> tables = {};  ///< of light data, if surfaces read it out of textures
 
     /// Specialization constants of the passes that draw lights.
-    std::vector<uint32_t> drawConstants() const {
+    std::vector<uint32_t> drawConstants(bool shares = false) const {
         const shared::IndexPacking& p = layout.packing;
         std::vector<uint32_t> constants = in.constants;
         constants.insert(constants.end(), {p.kind, p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit,
-                                           uint32_t(surfaces), uint32_t(plan.remapped), uint32_t(guarded)});
+                                           uint32_t(surfaces), uint32_t(plan.remapped), uint32_t(guarded), shares ? shared::kIndexShare : shadowed});
         return constants;
     }
 };
 
 /// Declares what light_index.vert and light_index_draw.glsl read.
 void readByLights(frame::PassBuilder& pass, const Indexing& x) {
-    pass.read(x.in.lights, Access::tableRead)
-        .read(x.depth, Access::fragmentSampled, shared::kIndexDepth)
+    x.in.readLightsBy(pass);
+    pass.read(x.depth, Access::fragmentSampled, shared::kIndexDepth)
         .read(x.order, Access::fragmentStorageRead, shared::kIndexOrder)
         .read(x.shapes, Access::fragmentStorageRead, shared::kIndexShapes);
 }
@@ -116,7 +118,8 @@ void guard(PassContext& pass, uint32_t first, uint32_t count) {
 }
 
 /// Step 2 (Trebilco 2009): light volumes write light indices. Fills `images` with one round of the plan.
-void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& round, const std::vector<ImageId>& images) {
+/// \param shares how much of each light arrives, instead of its index
+void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& round, const std::vector<ImageId>& images, bool shares = false) {
     const shared::IndexPacking& packing = x.layout.packing;
     const gpu::Blend blend = packing.kind == shared::kPackedBits       ? gpu::Blend::shift
                              : packing.kind == shared::kPackedExtremes ? gpu::Blend::max
@@ -127,7 +130,7 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
         const IndexDraw& first = round[begin];
         while (end < round.size() && round[end].firstImage == first.firstImage) ++end;
         const std::vector<IndexDraw> draws(round.begin() + ptrdiff_t(begin), round.begin() + ptrdiff_t(end));
-        auto pass = graph.addPass(x.in.phase + "light-indexed.index");
+        auto pass = graph.addPass(x.in.phase + (shares ? "light-indexed.shadows" : "light-indexed.index"));
         readByLights(pass, x);
         if (x.guarded)
             pass.update(x.depth, Access::stencilWrite);
@@ -143,7 +146,7 @@ void addIndexPasses(FrameGraph& graph, const Indexing& x, const IndexRound& roun
         if (x.counted()) fragment += "+COUNTED";
         if (x.samples) fragment += "+MULTISAMPLED";
         pass.record([&scene = x.in.scene, draws, fragment, blend, packing, guarded = x.guarded, counted = x.counted(),
-                     surfaces = x.surfaces, constants = x.drawConstants()](PassContext& context) {
+                     surfaces = x.surfaces, constants = x.drawConstants(shares)](PassContext& context) {
             // Moves what is there down by the digits of one index.
             const float shift = blendShift(packing);
             context.commands.setBlendConstants(std::array{shift, shift, shift, shift}.data());
@@ -261,7 +264,7 @@ std::vector<uint32_t> surfaceConstants(const Indexing& x, uint32_t sets) {
     const shared::IndexPacking& p = x.layout.packing;
     return {
         p.kind,      p.indexBits, p.entryBits, p.perPass, p.passes, p.images, p.unit, sets, uint32_t(x.plan.remapped),
-        tableRows(x)};
+        tableRows(x), uint32_t(x.soft)};
 }
 
 /// The same with the indices in `sum`: each pixel is read once, before it is written; of surfaces that coincide the
@@ -290,13 +293,13 @@ void addSharedSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum) {
 
 /// Step 3: surfaces look their lights up.
 void addSurfaces(FrameGraph& graph, const Indexing& x, ImageId sum, const std::vector<std::vector<ImageId>>& images,
-                 Surfaces which, bool first) {
+                 const std::vector<ImageId>& shares, Surfaces which, bool first) {
     if (x.shared()) return addSharedSurfaces(graph, x, sum);
     auto [pass, target] =
         addForwardPass(graph, x.in, sum,
                        which == Surfaces::blended ? "light-indexed.blended" : "light-indexed.surfaces", which, first);
     readImages(pass, images.front(), shared::kIndexImages);
-    readImages(pass, images.back(), shared::kIndexMoreImages);
+    readImages(pass, x.soft ? shares : images.back(), shared::kIndexMoreImages);
     pass.read(x.order, Access::fragmentStorageRead, shared::kIndexOrder);
     std::string fragment = "render/lighting/forward_indexed.frag";
     if (!x.tables.empty()) {
@@ -324,10 +327,13 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
     for (auto& set : images)
         for (uint32_t i = 0; i < x.layout.imageCount(); ++i)
             set.push_back(x.shared() ? sum : graph.createImage("light-index", desc));
+    std::vector<ImageId> shares;
+    for (uint32_t i = 0; x.soft && i < x.layout.imageCount(); ++i) shares.push_back(graph.createImage("light-index-shadows", desc));
     for (size_t r = 0; r < x.plan.rounds(); ++r) {
         for (size_t s = 0; s < images.size(); ++s) {
             const auto& rounds = x.plan.sets[s];
             const IndexRound round = r < rounds.size() ? rounds[r] : IndexRound{};
+            if (x.soft) addIndexPasses(graph, x, round, shares, true);
             addIndexPasses(graph, x, round, images[s]);
             if (in.report && !x.layout.sorted && !in.attempt.report) addSaturated(graph, x);
             if (in.report && in.attempt.report) {
@@ -338,10 +344,10 @@ void addImages(FrameGraph& graph, Indexing& x, ImageId sum) {
                 addLost(graph, x, images[s], slices);
             }
         }
-        addSurfaces(graph, x, sum, images, Surfaces::opaque, r == 0);
+        addSurfaces(graph, x, sum, images, shares, Surfaces::opaque, r == 0);
     }
     if (!in.scene.hasBlended()) return;
-    x.surfaces ? addBlendedLoop(graph, in, sum) : addSurfaces(graph, x, sum, images, Surfaces::blended, true);
+    x.surfaces ? addBlendedLoop(graph, in, sum) : addSurfaces(graph, x, sum, images, shares, Surfaces::blended, true);
 }
 
 /// Per-pixel lists of any length: count, place, fill, sort; slice by slice of the lights, each followed by what `addShading` adds.
@@ -461,9 +467,23 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
         throw Error(ErrorKind::usage,
                     "lidr-share: expected lidr-cover surface, no surface that blends, msaa 1, one target for all "
                     "types, and lidr-tables buffers");
-    Indexing x{.in = in,
+    const bool early = settings.shadows != Shadows::off && (settings.lidrShadows == LidrShadows::index || settings.lidrShadows == LidrShadows::indexSoft);
+    const bool soft = early && settings.lidrShadows == LidrShadows::indexSoft;
+    if (early && !(surfaces && !(list && multisampled)))
+        throw Error(ErrorKind::usage, "lidr-shadows: index and index-soft expect lidr-cover surface and no surface that blends, as indices of all lights before a surface "
+                                      "know of no place that a shadow could fall on (final takes them)");
+    if (soft && (settings.lidrPacking == LidrPacking::maxBlend || settings.lidrPacking == LidrPacking::maxBlendSorted || settings.lidrPacking == LidrPacking::list ||
+                 settings.lidrTypes == LidrTypes::targets || settings.lidrShare))
+        throw Error(ErrorKind::usage, "lidr-shadows: index-soft expects lidr-packing bit-shift or cpu-sort, one target for all types, and no lidr-share: shadows are packed as "
+                                      "indices are, in images of their own");
+    LightingInputs own = in;
+    // Lists that stand in for a packing meet soft shadows at surfaces.
+    if (settings.lidrShadows != LidrShadows::finalPass && !(soft && list)) own.constants[shared::kConstantLights] |= shared::kShadowsByIndex;
+    Indexing x{.in = own,
                .layout = layout.value_or(IndexLayout{kNoPacking, vk::Format::eR8Unorm, 0, ~0u, false}),
                .surfaces = surfaces && !(list && multisampled)};
+    if (early && !soft) x.shadowed = shared::kIndexIfLit;
+    x.soft = soft && !list;
     const auto plan = [&] {
         IndexLayout asList = x.layout;
         asList.sorted = false;

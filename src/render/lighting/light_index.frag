@@ -23,9 +23,10 @@ layout(location = 1) out float count;
 #endif
 
 // Trebilco 2009, "Light Index Packing: Bit Shifting": a digit of the index, as the highest bits of a channel of 8.
+uint written;
 float digit(uint channel) {
     const uint mask = (1u << kEntryBits) - 1u;
-    return float(((index >> (channel * kEntryBits)) & mask) << (8u - kEntryBits)) / float(kUnit);
+    return float(((written >> (channel * kEntryBits)) & mask) << (8u - kEntryBits)) / float(kUnit);
 }
 vec4 digits(uint image) {
     const uint c = 4u * image;
@@ -34,6 +35,9 @@ vec4 digits(uint image) {
 
 // Writes the index of a light that hits the pixel; masks, blending and the stencil see to where.
 void main() {
+    written = index;
+    if (kShadowed == kIndexShare)
+        written = packedShare(lightArrives(unpackPosition(vec3(sampleHere() / view.extent, surfaceDepth()))), indexLimit(kKind, kIndexBits, kUnit));
     if (!hits()) discard;
 #ifdef COUNTED
     count = 1.0 / 255.0;
@@ -48,9 +52,9 @@ void main() {
         image3 = digits(3u);
 #endif
     } else {
-        const float written = float(index) / float(kUnit);
-        const float complement = float(kUnit - index) / float(kUnit);
-        image0 = kKind == kPackedChannels ? vec4(written) : vec4(written, complement, written, complement);
+        const float value = float(written) / float(kUnit);
+        const float complement = float(kUnit - written) / float(kUnit);
+        image0 = kKind == kPackedChannels ? vec4(value) : vec4(value, complement, value, complement);
 #if defined(TWO) || defined(FOUR)
         image1 = vec4(0);
 #endif

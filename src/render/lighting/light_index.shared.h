@@ -10,6 +10,18 @@ const uint kPackedBits = 0u;      // "Bit Shifting": each channel holds one digi
 const uint kPackedChannels = 1u;  // "CPU Sorting": a channel an index
 const uint kPackedExtremes = 2u;  // "Multi-pass Max Blend Equation": the largest index, 1 - the smallest
 
+// The largest index that a packing holds.
+SHARED_FN uint indexLimit(uint kind, uint indexBits, uint unit) { return kind == kPackedBits ? (1u << indexBits) - 1u : unit; }
+
+// How much of a light arrives, packed as its index is (Trebilco 2009, "Shadow Maps": "Pre-pass"): 1 for none of it, 0 says that nothing is there.
+SHARED_FN uint packedShare(float lit, uint limit) { return 1u + uint(lit * float(limit - 1u) + 0.5f); }
+SHARED_FN float litShare(uint packedShare_, uint limit) { return float(packedShare_ - 1u) / float(limit - 1u); }
+
+// What light volumes do about shadows while they write indices.
+const uint kIndexLitOrNot = 0u;  // nothing
+const uint kIndexIfLit = 1u;     // where less than half of the light arrives, there is no index
+const uint kIndexShare = 2u;     // instead of the index, how much arrives
+
 // Specialization constants, from 3 on in the passes that draw lights, from 8 on in those that draw surfaces.
 struct IndexPacking {
     uint kind;

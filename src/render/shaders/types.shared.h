@@ -122,6 +122,7 @@ const uint kUsesShadows = 2048u;            // shadow maps keep light off (shado
 const uint kShadowsJittered = 4096u;
 const uint kShadowsSmooth = 8192u;
 const uint kShadowsStencilled = 16384u;     // shadow volumes do
+const uint kShadowsByIndex = 32768u;        // light-indexed: surfaces ask for none of lights that have an index
 
 SHARED_END
 #endif

@@ -10,6 +10,8 @@ layout(set = 0, binding = 14, scalar) readonly buffer ShadowMaps { ShadowMap sha
 layout(set = 0, binding = 14, scalar) readonly buffer ShadowMask { uint shadowMask[]; };  // instead, with shadow volumes
 layout(set = 0, binding = 15) uniform sampler2D shadowAtlas;
 
+bool shadowsAsked = true;  // by lights that are shaded from here on
+
 // Metres by which rounding and the G-buffer's layout may have moved a surface (viewSlack in tables.cpp); where vertices are snapped to moves it
 // along its own plane.
 float surfaceSlack(vec3 P) {
