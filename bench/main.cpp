@@ -24,6 +24,7 @@ constexpr Suite kSuites[] = {{"frames", bench::benchFrames},
                              {"tiles", bench::benchTiles},
                              {"scaling", bench::benchScaling},
                              {"moving-lights", bench::benchMovingLights},
+                             {"shadows", bench::benchShadows},
                              {"advice", bench::benchAdvice}};
 
 const Suite& suiteNamed(std::string_view name) {

@@ -34,4 +34,7 @@ void benchMovingLights(Renderer& renderer, const Options& options);
 /// How good lighting `auto` is: over a grid of configurations its choice beside the measured best, and the share of those within 10 %.
 void benchAdvice(Renderer& renderer, const Options& options);
 
+/// What shadows cost to make, to keep and to use: the article's claim (Calver 2003, "Shadow Maps").
+void benchShadows(Renderer& renderer, const Options& options);
+
 }  // namespace luciole::bench

@@ -532,7 +532,7 @@ void addLightIndexed(FrameGraph& graph, const LightingInputs& in, ImageId sum) {
         frame.stats.imageBytes = settings.lidrShare
                                      ? 0
                                      : uint64_t(extent.width) * extent.height * gpu::bytesPerTexel(x.layout.format) *
-                                           x.layout.imageCount() * x.plan.sets.size() * (x.samples ? 4 : 1);
+                                           x.layout.imageCount() * (x.plan.sets.size() + x.soft) * (x.samples ? 4 : 1);
     }
     report(graph, x, std::move(frame));
 }
