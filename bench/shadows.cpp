@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
 #include "halls.hpp"

@@ -116,9 +116,12 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
     addGeometry(graph, scene, gbuffer, constants, depthFirst);
     const frame::BufferId lights = graph.importBuffer("lights", scene.lightTableBytes(), scene.lightTable());
     if (scene.bounce()) addBounce(graph, scene, lights);
-    const frame::ImageId shadows = scene.shadows().import(graph);
-    if (key.settings.shadows == Shadows::maps) scene.shadows().addPasses(graph, scene, shadows, key.settings.shadowCasters);
+    std::optional<frame::ImageId> shadowAtlas;
     std::optional<frame::BufferId> shadowMask;
+    if (key.settings.shadows == Shadows::maps) {
+        shadowAtlas = scene.shadows().import(graph);
+        scene.shadows().addPasses(graph, scene, *shadowAtlas, key.settings.shadowCasters);
+    }
     if (volumes) {
         shadowMask = scene.shadowVolumes().import(graph);
         scene.shadowVolumes().addPasses(graph, *shadowMask, gbuffer.depth, scene.volumeMeshes());
@@ -128,7 +131,7 @@ BuiltFrame buildFrame(const gpu::Context& context, gpu::Pipelines& pipelines, co
                             .scene = scene,
                             .constants = constants,
                             .lights = lights,
-                            .shadows = shadows,
+                            .shadowAtlas = shadowAtlas,
                             .shadowMask = shadowMask,
                             .depth = gbuffer.depth,
                             .settings = key.settings,

@@ -35,7 +35,7 @@ struct LightingInputs {
     const GpuScene& scene;
     std::vector<uint32_t> constants;  ///< specialization constants kConstant* for whoever includes frame.glsl
     frame::BufferId lights;           ///< the table of lights, which the frame's set names
-    frame::ImageId shadows;           ///< the atlas of shadow maps, likewise
+    std::optional<frame::ImageId> shadowAtlas = {};  ///< of shadow maps, likewise
     std::optional<frame::BufferId> shadowMask = {};  ///< of shadow volumes, likewise
     frame::ImageId depth;             ///< of the opaque surfaces, with all the samples that there are; the G-buffer's where that is one
     RenderSettings settings;
@@ -50,7 +50,8 @@ struct LightingInputs {
 
     /// Declares that a pass reads lights, and what keeps them off.
     void readLightsBy(frame::PassBuilder& pass) const {
-        pass.read(lights, frame::Access::tableRead).read(shadows, frame::Access::tableSampled);
+        pass.read(lights, frame::Access::tableRead);
+        if (shadowAtlas) pass.read(*shadowAtlas, frame::Access::tableSampled);
         if (shadowMask) pass.read(*shadowMask, frame::Access::tableRead);
     }
 
