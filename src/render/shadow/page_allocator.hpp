@@ -1,7 +1,8 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <vector>
+#include <set>
+#include <utility>
 
 #include <luciole/math.hpp>
 
@@ -28,10 +29,12 @@ public:
     void free(Page page);
 
 private:
-    std::vector<uvec2>& freeOf(uint32_t side);
+    /// Places of free squares, row by row.
+    using Free = std::set<std::pair<uint32_t, uint32_t>>;
+    Free& freeOf(uint32_t side);
 
     uvec2 extent_{0};
-    std::array<std::vector<uvec2>, 32> free_;  ///< by the logarithm of the side
+    std::array<Free, 32> free_;  ///< by the logarithm of the side
 };
 
 }  // namespace luciole::render

@@ -56,15 +56,17 @@ double reachAlong(dvec3 direction, dvec3 halfSize) { return dot(abs(direction), 
 bool sees(const ShadowFrustum& frustum, const Bounds& boundsWorld) {
     const dvec3 halfSize = 0.5 * (dvec3(boundsWorld.high) - dvec3(boundsWorld.low));
     const dvec3 center = 0.5 * (dvec3(boundsWorld.high) + dvec3(boundsWorld.low)) - frustum.origin;
+    if (!frustum.orthographic) {
+        const dvec3 nearest = max(abs(center) - halfSize, dvec3(0));
+        if (dot(nearest, nearest) >= frustum.depth * frustum.depth) return false;
+    }
     const auto outside = [&](dvec3 inwards, double offset) { return dot(inwards, center) + reachAlong(inwards, halfSize) < -offset; };
     for (const dvec3 side : {frustum.right, frustum.down})
         for (const double sign : {1.0, -1.0}) {
             if (frustum.orthographic ? outside(sign * side, frustum.tangent) : outside(kMostBorder * frustum.tangent * frustum.forward + sign * side, 0)) return false;
         }
     if (outside(frustum.forward, 0)) return false;
-    if (frustum.orthographic) return !outside(-frustum.forward, frustum.depth);
-    const dvec3 nearest = max(abs(center) - halfSize, dvec3(0));
-    return dot(nearest, nearest) < frustum.depth * frustum.depth;
+    return !frustum.orthographic || !outside(-frustum.forward, frustum.depth);
 }
 
 /// The power of two that is nearest in proportion.
@@ -350,7 +352,8 @@ void ShadowPlan::placePages() {
         for (auto& [key, kept] : kept_)
             if (!kept.wanted) free(kept);
         if (!allocateAll()) {
-            for (auto& [key, kept] : kept_) free(kept);
+            for (auto& [key, kept] : kept_) kept.page = {}, kept.drawn = kept.still = 0;
+            pages_ = PageAllocator(pages_.extent());
             missing.clear();
             for (PlannedMap& map : maps_)
                 if (map.side != 0) missing.push_back(&map);
@@ -381,10 +384,12 @@ void ShadowPlan::chooseDirty(const Inputs& in) {
     }
     std::ranges::stable_sort(dirty_, std::greater{}, [&](uint32_t i) { return maps_[i].pixels; });
     if (const uint32_t most = in.settings.shadowRedraws; most != 0 && dirty_.size() > most) {
+        std::vector<bool> told(in.lights.size());
         for (const uint32_t i : std::span(dirty_).subspan(most)) {
             const uint32_t light = maps_[i].light;
-            if (std::ranges::count(stats_.waiting, light, &ShadowStats::Without::light) == 0)
+            if (!told[light])
                 stats_.waiting.push_back({light, fmt::format("its map waits to be drawn, as {} a frame are (shadow-redraws)", most)});
+            told[light] = true;
         }
         dirty_.resize(most);
     }
