@@ -284,7 +284,7 @@ void ShadowPlan::fit(const Inputs& in) {
         return texels;
     };
     uint32_t coarser = 0;
-    while (texelsAt(coarser) > capacity && coarser < 16) ++coarser;
+    while (texelsAt(coarser) > capacity && texelsAt(coarser + 1) < texelsAt(coarser)) ++coarser;
     stats_.coarser = coarser;
     for (PlannedMap& map : maps_) map.side = sideAt(map.side, coarser);
     uint64_t texels = texelsAt(coarser);
