@@ -4,6 +4,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
+#include <luciole/scene_io.hpp>
+
 #include "halls.hpp"
 #include "suites.hpp"
 
@@ -15,6 +17,9 @@ RenderSettings shadowed(Shadows shadows, ShadowFilter filter = ShadowFilter::jit
     settings.shadowMemory = 1024;  // volumes' masks of 256 lights
     return settings;
 }
+
+/// With all the materials that it has, unlike builtinHall.
+Scene hall(uint32_t lights) { return loadScene(fmt::format("builtin:hall?lights={}", lights)); }
 
 std::vector<Light> moved(std::vector<Light> lights, int frame) {
     for (size_t i = 0; i < lights.size(); ++i) lights[i].positionWorld += 0.02f * vec3(std::cos(float(i) + float(frame)), 0, std::sin(float(i) + float(frame)));
@@ -33,7 +38,7 @@ void printKept(Renderer& renderer, const Options& options) {
     fmt::print("\n| shadowed lights | maps | MiB | no shadows, ms: median (least) | all kept, ms | times | one column moved, ms | maps drawn, draws | all lights moved, ms | draws |\n"
                "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     for (const uint32_t lights : {16u, 64u, 256u}) {
-        const Scene scene = builtinHall(lights, 4);
+        const Scene scene = hall(lights);
         renderer.setScene(scene);
         const View view{scene.cameras.at(0), options.extent};
         const auto column = uint32_t(std::ranges::find_if(scene.objects, [](const Object& object) { return object.name.starts_with("column left 1"); }) - scene.objects.begin());
@@ -57,9 +62,8 @@ void printKept(Renderer& renderer, const Options& options) {
     }
 }
 
-/// What a shadow costs that is there: frames of the hall with 255 lights, maps kept.
-void printUsing(Renderer& renderer, const Options& options) {
-    const Scene scene = builtinHall(255, 4);
+/// What a shadow costs that is there: frames of a hall with 255 lights, maps kept.
+void printUsing(Renderer& renderer, const Options& options, const Scene& scene, const char* name) {
     renderer.setScene(scene);
     const View view{scene.cameras.at(0), options.extent};
     const std::vector<Contender> kinds{{"none", shadowed(Shadows::off)},
@@ -72,7 +76,7 @@ void printUsing(Renderer& renderer, const Options& options) {
     const Frame counted = renderer.render(view, shadowed(Shadows::off), {"useful-evaluations"});
     double useful = 0;
     for (const float value : counted.aovs.at("useful-evaluations").data) useful += double(value);
-    fmt::print("\n| shadows of 255 lights, kept | frame, ms: median (least) | times | ns for each light at a pixel that it reaches |\n| --- | ---: | ---: | ---: |\n");
+    fmt::print("\n| shadows of 255 lights, kept; {} | frame, ms: median (least) | times | ns for each light at a pixel that it reaches |\n| --- | ---: | ---: | ---: |\n", name);
     for (const Contender& kind : kinds)
         fmt::print("| {} | {} | {:.2f} | {:.1f} |\n", kind.name, milliseconds(ms[kind.name]), median(ms[kind.name]) / median(ms["none"]),
                    1e6 * (median(ms[kind.name]) - median(ms["none"])) / useful);
@@ -139,7 +143,8 @@ void printIndexed(Renderer& renderer, const Options& options) {
 
 void benchShadows(Renderer& renderer, const Options& options) {
     printKept(renderer, options);
-    printUsing(renderer, options);
+    printUsing(renderer, options, hall(255), "`builtin:hall`");
+    printUsing(renderer, options, builtinHall(255, 4), "`builtin:hall?gltf=1`");
     printVolumes(renderer, options);
     printIndexed(renderer, options);
 }

@@ -342,7 +342,7 @@ TEST_CASE("shadow plan: degenerate lights and views give maps of finite numbers,
             CHECK(plan.stats().maps > 0);
             for (const render::PlannedMap& map : plan.maps()) {
                 const auto constants = ShadowPlan::constants(map, 1, room.view.camera.worldFromView[3]);
-                for (const float value : {constants.page.center.x, constants.page.center.y, constants.page.reach, constants.page.scale}) CHECK(std::isfinite(value));
+                CHECK(std::isfinite(constants.scale));
                 for (const vec3 row : {constants.right, constants.down, constants.forward, constants.origin})
                     for (int c = 0; c < 3; ++c) CHECK(std::isfinite(row[c]));
             }
@@ -365,8 +365,8 @@ TEST_CASE("shadow plan: the cascades of a directional light hold all that is see
         double texel = 0;
         for (const render::PlannedMap& map : plan.maps()) {
             const auto constants = ShadowPlan::constants(map, 1, eye);
-            CHECK(1 / double(constants.page.scale) > texel);
-            texel = 1 / double(constants.page.scale);
+            CHECK(1 / double(constants.scale) > texel);
+            texel = 1 / double(constants.scale);
         }
         for (int i = 0; i < 20000; ++i) {
             const dvec3 point = dice.place(10);
@@ -378,9 +378,9 @@ TEST_CASE("shadow plan: the cascades of a directional light hold all that is see
             for (size_t m = 0; m < plan.maps().size() && !held; ++m) {
                 const auto constants = ShadowPlan::constants(plan.maps()[m], 1, eye);
                 const vec3 Q = vec3(point - eye) - constants.origin;
-                const vec2 at = constants.page.scale * vec2(glm::dot(constants.right, Q), glm::dot(constants.down, Q));
+                const vec2 at = constants.scale * vec2(glm::dot(constants.right, Q), glm::dot(constants.down, Q));
                 const float depth = 1 - constants.fall * glm::dot(constants.forward, Q);
-                held = glm::max(std::abs(at.x), std::abs(at.y)) < constants.page.reach && depth >= 0 && depth <= 1;
+                held = glm::max(std::abs(at.x), std::abs(at.y)) < 0.5f * float(plan.maps()[m].page.side) - 0.5f && depth >= 0 && depth <= 1;
                 inCascade[m] += held;
             }
             missed += !held;
@@ -453,4 +453,17 @@ TEST_CASE("mesh edges: open, degenerate and crowded ones; whatever a triangle's 
         }
         CHECK(expected == found);
     }
+}
+
+TEST_CASE("shadow plan: a page survives being packed in a word") {
+    for (const uint32_t log : {4u, 7u, 14u})
+        for (const uvec2 first : {uvec2(0), uvec2(16, 32), uvec2(16368, 16368)})
+            for (const float softness : {0.0f, 1.0f, 0.3f, 4.0f}) {
+                const uint32_t packed = luciole::shared::packPage(first, log, softness);
+                CHECK(packed != 0);
+                const auto page = luciole::shared::unpackPage(packed);
+                CHECK(page.side == float(1u << log));
+                CHECK(page.center == vec2(first) + 0.5f * page.side);
+                CHECK(std::abs(page.softness - softness) < 0.008f);
+            }
 }

@@ -94,11 +94,11 @@ private:
         const auto constants = render::ShadowPlan::constants(map, 1, eye_);
         const render::ShadowFrustum& f = map.frustum;
         const double w = directional ? 1 : dot(f.forward, P - f.origin);
-        const dvec2 at = double(constants.page.scale) / w * dvec2(dot(f.right, P - f.origin), dot(f.down, P - f.origin));
-        if (constants.page.scale == 0 || w <= 0 || std::max(std::abs(at.x), std::abs(at.y)) > double(constants.page.reach)) return false;
+        const dvec2 at = double(constants.scale) / w * dvec2(dot(f.right, P - f.origin), dot(f.down, P - f.origin));
+        if (constants.page == 0 || w <= 0 || std::max(std::abs(at.x), std::abs(at.y)) > 0.5 * map.page.side - 0.5) return false;
         if (!directional && distance(P, dvec3(light.positionWorld)) > double(light.range)) return false;
         const dvec3 L = directional ? -dvec3(light.directionWorld) : normalize(dvec3(light.positionWorld) - P);
-        const double texel = w / double(constants.page.scale), cosine = dot(L, normalOf(receiver));
+        const double texel = w / double(constants.scale), cosine = dot(L, normalOf(receiver));
         const bool here = isShadowed(receiver, P, L, light);
         for (const double reach : {1.0, 2.0})
             for (int i = 0; i < 8; ++i) {

@@ -22,7 +22,8 @@ float surfaceSlack(vec3 P) {
 
 // Whether light arrives at what lies at a depth, as far as the texel at `at` tells.
 float litAt(ShadowPage page, float depth, vec2 at) {
-    const ivec2 texel = ivec2(clamp(at, page.center - page.reach, page.center + page.reach));
+    const float reach = 0.5 * page.side - 0.5;  // to the centres of the outermost texels
+    const ivec2 texel = ivec2(clamp(at, page.center - reach, page.center + reach));
     return depth >= texelFetch(shadowAtlas, texel, 0).x ? 1.0 : 0.0;
 }
 
@@ -60,8 +61,8 @@ vec3 warped(uint i, uint face, bool cube, vec3 v) {
 uint cascadeOf(uint first, uint count, vec3 P) {
     for (uint i = first; i < first + count; ++i) {
         const vec3 Q = P - shadowMaps[i].origin;
-        const vec2 at = shadowMaps[i].page.scale * vec2(dot(shadowMaps[i].right, Q), dot(shadowMaps[i].down, Q));
-        if (shadowMaps[i].page.scale > 0.0 && max(abs(at.x), abs(at.y)) < shadowMaps[i].page.reach) return i;
+        const vec2 at = shadowMaps[i].scale * vec2(dot(shadowMaps[i].right, Q), dot(shadowMaps[i].down, Q));
+        if (shadowMaps[i].page != 0u && max(abs(at.x), abs(at.y)) < 0.5 * unpackPage(shadowMaps[i].page).side - 0.5) return i;
     }
     return first + count - 1u;
 }
@@ -91,21 +92,24 @@ float unshadowed(LightConstants light, vec3 P, vec3 N) {
         i = cascadeOf(i, count, P);
         Q = P - shadowMaps[i].origin;
     }
-    const ShadowPage page = shadowMaps[i].page;
-    if (page.scale == 0.0) return 1.0;
+    const uint packed = shadowMaps[i].page;
+    if (packed == 0u) return 1.0;
+    const ShadowPage page = unpackPage(packed);
+    float scale = 0.5 * page.side - pageBorder(page.side);
+    if (!cube) scale = shadowMaps[i].scale;
     vec3 pinShadow = warped(i, face, cube, Q);
     const vec3 n = warped(i, face, cube, N);
     // Towards the light by what rounding and the G-buffer may have moved the surface, and off the surface, on the side that the light is on, by
     // as much as brings it before its own plane at the farthest texel that is asked (Holbert 2011, "Normal Offset Shadows"). Beyond a crease,
     // that one belongs to another plane, whose slope did not bias it enough.
     const vec3 l = directional ? vec3(0, 0, -1) : -pinShadow * inversesqrt(max(dot(pinShadow, pinShadow), 1e-18));
-    const float texel = (directional ? 1.0 : pinShadow.z) / page.scale;
+    const float texel = (directional ? 1.0 : pinShadow.z) / scale;
     const float reach = usesLights(kShadowsSmooth) ? kSmoothReach : usesLights(kShadowsJittered) ? kJitteredReach : 0.0;
     const float offset = kNormalOffset * (0.5 + reach * page.softness) * texel * sqrt(max(1.0 - n.z * n.z, 0.0));
     pinShadow += l * (kShadowBias * texel + surfaceSlack(P)) + n * (dot(n, l) < 0.0 ? -offset : offset);
     const float perW = directional ? 1.0 : 1.0 / max(pinShadow.z, 1e-9);
     const float depth = directional ? 1.0 - pinShadow.z * shadowMaps[i].fall : kShadowMapNear * perW;
-    const vec2 at = page.center + page.scale * perW * pinShadow.xy;
+    const vec2 at = page.center + scale * perW * pinShadow.xy;
     if (usesLights(kShadowsSmooth)) return smoothSample(page, depth, at);
     if (usesLights(kShadowsJittered)) return jitteredSample(page, depth, at);
     return litAt(page, depth, at);

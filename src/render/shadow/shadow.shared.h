@@ -4,19 +4,34 @@
 #include "shared.h"
 SHARED_BEGIN
 
-// The page of a shadow map in the atlas. Depth is reversed: kShadowMapNear / w of lights that are somewhere, w metres along the map's axis; of
-// directional ones from 1 at the first object to 0 behind the last.
-struct ShadowPage {
-    vec2 center;     // texels
-    float reach;     // texels from there to the centres of the outermost ones
-    float scale;     // texels to a metre across the axis at w = 1, of directional lights anywhere; 0: nothing keeps light off here
-    float softness;  // Light::shadowSoftness
-};
+// Pages have from 16 to 16,384 texels a side and lie at multiples of 16. A map shows more than its light needs by a border, for taps.
+const uint kPageUnit = 16u;
+SHARED_FN float pageBorder(float side) { return min(4.0f, side / 8.0f); }  // texels
 
-// One shadow map. Set 0, kFrameShadowMaps.
+// A page in one word, because a software driver loads words one by one: its place, its size and Light::shadowSoftness. 0 is no page: nothing
+// keeps light off.
+SHARED_FN uint packPage(uvec2 first, uint sideLog2, float softness) {
+    return (sideLog2 - 3u) | uint(softness * 63.75f + 0.5f) << 4u | first.x / kPageUnit << 12u | first.y / kPageUnit << 22u;
+}
+struct ShadowPage {
+    float side;      // texels
+    float softness;
+    vec2 center;     // texels
+};
+SHARED_FN ShadowPage unpackPage(uint page) {
+    ShadowPage result;
+    result.side = float(8u << (page & 15u));
+    result.softness = float(page >> 4u & 255u) / 63.75f;
+    result.center = vec2(page >> 12u & 1023u, page >> 22u) * float(kPageUnit) + 0.5f * result.side;
+    return result;
+}
+
+// One shadow map. Set 0, kFrameShadowMaps. Depth is reversed: kShadowMapNear / w of lights that are somewhere, w metres along the map's axis; of
+// directional ones from 1 at the first object to 0 behind the last. Of a cube's faces only `page` is looked at.
 struct ShadowMap {
-    ShadowPage page;
-    vec3 right;      // the warp matrix, without what the page does: across, down and along the axis, unit; no cube's
+    uint page;
+    float scale;     // texels to a metre across the axis at w = 1, of directional lights anywhere
+    vec3 right;      // the warp matrix, without what the page does: across, down and along the axis, unit
     vec3 down;
     vec3 forward;
     vec3 origin;     // directional: the middle of the nearest side, in shading space

@@ -13,7 +13,7 @@ namespace {
 
 constexpr vk::Format kFormat = vk::Format::eD32Sfloat;
 constexpr vk::ImageLayout kLayout = vk::ImageLayout::eDepthReadOnlyOptimal;
-static_assert(sizeof(shared::ShadowMap) == 72 && sizeof(shared::ShadowPush) == 76);
+static_assert(sizeof(shared::ShadowMap) == 60 && sizeof(shared::ShadowPush) == 76);
 
 }  // namespace
 

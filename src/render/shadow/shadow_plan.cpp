@@ -18,12 +18,12 @@ namespace {
 
 using namespace shared;
 
-constexpr uint32_t kLeastSide = 16;       // texels
+constexpr uint32_t kLeastSide = kPageUnit;  // texels
+constexpr uint32_t kLargestAtlas = 16384;   // a side, as far as packed pages reach
 constexpr uint32_t kUsualSide = 1024;     // largest of a light's maps that asks for no finer ones
 constexpr uint32_t kSunSide = 2048;       // likewise of a cascade
 constexpr double kWidestMap = 1.0;        // radians, half the angle of one map; wider spots have the faces of a cube
 constexpr uint32_t kCascades = 4;
-constexpr double kBorder = 4;             // texels around what a light needs, for taps, and at most an eighth of the page
 constexpr double kMostBorder = 4.0 / 3;   // so much wider is a map then
 constexpr double kPixelsPerTexel = 2;     // where the light ends, if that lies no nearer to the eye than its range
 
@@ -230,7 +230,7 @@ void ShadowPlan::collectDirectional(const Inputs& in, uint32_t index) {
         frustum.tangent = all ? 0.5 * std::max(high.x - low.x, high.y - low.y) : radius;
         dvec2 at(0.5 * (low.x + high.x), 0.5 * (low.y + high.y));
         if (!all) {
-            const double texel = 2 * frustum.tangent / (side - 2 * kBorder);
+            const double texel = 2 * frustum.tangent / (side - 2.0 * double(pageBorder(float(side))));
             at = round(dvec2(dot(center, whole.right), dot(center, whole.down)) / texel) * texel;
         }
         frustum.origin = at.x * whole.right + at.y * whole.down + low.z * whole.forward;
@@ -275,7 +275,8 @@ bool ShadowPlan::castsInto(const Inputs& in, const PlannedMap& map, uint32_t cas
 void ShadowPlan::fit(const Inputs& in) {
     anyMoves_ = std::ranges::any_of(in.casters, [](const ShadowCaster& caster) { return caster.casts && caster.version > 0; });
     const uint64_t most = (uint64_t(in.settings.shadowMemory) << 20) / sizeof(float) / (anyMoves_ ? 2 : 1);
-    const uvec2 largest = extentFor(UINT64_MAX, most, in.largestSide);
+    const uint32_t largestSide = std::min(in.largestSide, kLargestAtlas);
+    const uvec2 largest = extentFor(UINT64_MAX, most, largestSide);
     const uint64_t capacity = uint64_t(largest.x) * largest.y;
     const auto sideAt = [&](uint32_t side, uint32_t coarser) { return side == 0 ? 0 : std::min(std::max(side >> coarser, kLeastSide), std::min(largest.x, largest.y)); };
     const auto texelsAt = [&](uint32_t coarser) {
@@ -307,7 +308,7 @@ void ShadowPlan::fit(const Inputs& in) {
         }
         std::erase_if(maps_, [&](const PlannedMap& map) { return goes.contains(map.light); });
     }
-    const uvec2 wanted = extentFor(texels, most, in.largestSide);
+    const uvec2 wanted = extentFor(texels, most, largestSide);
     const uvec2 have = pages_.extent();
     if (uint64_t(wanted.x) * wanted.y > uint64_t(have.x) * have.y || uint64_t(have.x) * have.y > most) {
         kept_ = {};
@@ -421,8 +422,8 @@ namespace {
 
 /// Half the width of what the page shows, at a distance of 1: what the light needs, and the border for taps.
 double halfWidth(const PlannedMap& map) {
-    const double side = map.page.side, border = std::min(kBorder, side / 8);
-    return map.frustum.tangent * side / (side - 2 * border);
+    const double side = map.page.side;
+    return map.frustum.tangent * side / (side - 2 * pageBorder(float(side)));
 }
 
 /// From the light (axes of world space) to the clip space of the page. \param origin of positions, world space
@@ -455,10 +456,8 @@ shared::ShadowMap ShadowPlan::constants(const PlannedMap& map, float softness, d
     shared::ShadowMap result{};
     if (map.page.side == 0 || !map.drawn) return result;
     const ShadowFrustum& f = map.frustum;
-    result.page.center = vec2(map.page.first) + 0.5f * float(map.page.side);
-    result.page.reach = 0.5f * float(map.page.side) - 0.5f;
-    result.page.scale = float(0.5 * map.page.side / halfWidth(map));
-    result.page.softness = softness;
+    result.page = packPage(map.page.first, uint32_t(std::countr_zero(map.page.side)), softness);
+    result.scale = float(0.5 * map.page.side / halfWidth(map));
     result.right = vec3(f.right);
     result.down = vec3(f.down);
     result.forward = vec3(f.forward);
