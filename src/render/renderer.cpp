@@ -95,7 +95,7 @@ uint32_t shadowFeatures(const RenderSettings& settings) {
     if (settings.shadows == Shadows::off) return 0;
     if (settings.shadows == Shadows::volumes) return shared::kUsesShadows | shared::kShadowsStencilled;
     const uint32_t filters[] = {0, shared::kShadowsJittered, shared::kShadowsSmooth};
-    return shared::kUsesShadows | filters[size_t(settings.shadowFilter)];
+    return shared::kUsesShadows | filters[size_t(settings.shadowFilter)] | (settings.shadowRedraws != 0 ? shared::kShadowsWait : 0);
 }
 
 /// The whole frame, in order.
@@ -178,7 +178,7 @@ RenderSettings withoutData(RenderSettings settings) {
     const RenderSettings defaults;
     settings.cullLights = defaults.cullLights;
     settings.shadowMemory = defaults.shadowMemory;
-    settings.shadowRedraws = defaults.shadowRedraws;
+    settings.shadowRedraws = std::min(settings.shadowRedraws, 1u);  // whether there is a budget
     settings.exposureEv = defaults.exposureEv;
     settings.measure = defaults.measure;
     return settings;

@@ -286,12 +286,17 @@ TEST_CASE("shadow plan: a budget of redraws draws the most visible first, says w
     } while (!plan.stats().waiting.empty() && frames < 100);
     CHECK(frames == (plan.stats().maps + 6) / 7);
     CHECK(drawn == plan.stats().maps);
-    // A map that waits is what it was: the light where it shone from.
-    for (Light& light : room.lights) light.positionWorld.y += 0.1f;
+    // A map that waits is what it was, where it was: the light where it shone from, the page as large.
+    std::map<std::pair<uint32_t, uint32_t>, Page> pages;
+    for (const render::PlannedMap& map : plan.maps()) pages[{map.light, map.face}] = map.page;
+    for (Light& light : room.lights) light.positionWorld.z += 3;
     ++room.version;
     plan.update(room.inputs());
     atlas.checkFrame(plan);
     CHECK(plan.stats().waiting.size() > 2);
+    const auto kept = [&](const render::PlannedMap& map) { return pages[{map.light, map.face}].side != 0 && map.side != 0; };
+    CHECK(std::ranges::any_of(plan.maps(), [&](const auto& map) { return kept(map) && map.side > map.page.side; }));
+    CHECK(std::ranges::none_of(plan.maps(), [&](const auto& map) { return kept(map) && !map.drawn; }));
     room.settings.onOverflow = OnOverflow::fail;
     CHECK_THROWS_WITH_AS(plan.update(room.inputs()), doctest::Contains("as 7 a frame are (shadow-redraws)"), Error);
 }

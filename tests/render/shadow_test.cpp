@@ -286,6 +286,48 @@ TEST_CASE("shadow maps: a budget of redraws comes to the same picture in the end
     CHECK(frame.radiance.data == whole.radiance.data);
 }
 
+TEST_CASE("shadow maps: what waits keeps the shadow that it had") {
+    ValidatedRenderer renderer;
+    Scene scene;
+    const Material white = lambertMaterial(scene);
+    for (const float x : {-3.0f, 3.0f}) {
+        addObject(scene, quad(2), white, glm::translate(mat4(1), vec3(x, 0, 0)));
+        addObject(scene, quad(0.5f), white, glm::translate(mat4(1), vec3(x, 0, 1)) * glm::rotate(mat4(1), float(kPi), vec3(1, 0, 0)));
+    }
+    const vec3 nearby(0, 0, 0.6f);
+    const auto check = [&](const Light& light) {
+        scene.lights = {light};
+        renderer->setScene(scene);
+        // The square on the right is nearer: its maps come first, and those on the left wait.
+        scene.lights.push_back(light);
+        scene.lights[1].positionWorld.x = 3;
+        renderer->setLights(scene.lights);
+        Camera camera;
+        camera.worldFromView = lookAt(vec3(2, -7, 5), vec3(0, 0, 0));
+        const View view{camera, {96, 72}};
+        RenderSettings settings = with(ShadowFilter::point);
+        const auto shares = [&](const Frame& frame, const RenderSettings& lit) { return litShares(frame.radiance, renderer->render(view, lit).radiance); };
+        const std::vector<double> before = shares(renderer->render(view, settings), {});
+        for (Light& moved : scene.lights) moved.positionWorld += nearby;
+        renderer->setLights(scene.lights);
+        settings.shadowRedraws = light.type == LightType::spot ? 1 : 6;
+        const Frame frame = renderer->render(view, settings);
+        CHECK(frame.stats.shadows->waiting.size() == 1);
+        CHECK(frame.stats.shadows->waiting[0].light == 0);
+        const std::vector<double> after = shares(frame, {});
+        size_t left = 0, differ = 0;
+        for (size_t i = 0; i < after.size(); ++i) {
+            if (i % 96 >= 40) continue;  // the left half
+            ++left;
+            differ += std::abs(after[i] - before[i]) > 0.01;
+        }
+        INFO("of " << left << " pixels " << differ << " differ");
+        CHECK(differ < left / 100);
+    };
+    check(spotLight(vec3(-3, 0, 2), vec3(0, 0, -1), 0.5f, 0.9f, vec3(5)));
+    check(pointLight(vec3(-3, 0, 2), vec3(5), 3.9f));
+}
+
 TEST_CASE("shadow maps: too little memory makes them coarser, then leaves lights without, by name, or is refused") {
     ValidatedRenderer renderer;
     TestScene test = builtin("builtin:hall?lights=400", {320, 240});

@@ -123,6 +123,7 @@ const uint kShadowsJittered = 4096u;
 const uint kShadowsSmooth = 8192u;
 const uint kShadowsStencilled = 16384u;     // shadow volumes do
 const uint kShadowsByIndex = 32768u;        // light-indexed: surfaces ask for none of lights that have an index
+const uint kShadowsWait = 65536u;           // a map may be of where its light was, which costs a look (shadow-redraws)
 
 SHARED_END
 #endif

@@ -88,10 +88,8 @@ float unshadowed(LightConstants light, vec3 P, vec3 N) {
     const uint face = cubeFaceOf(Q);
     uint i = maps >> kShadowCountBits;
     if (cube) i += face;
-    if (directional) {
-        i = cascadeOf(i, count, P);
-        Q = P - shadowMaps[i].origin;
-    }
+    if (directional) i = cascadeOf(i, count, P);
+    if (directional || usesLights(kShadowsWait)) Q = P - shadowMaps[i].origin;
     const uint packed = shadowMaps[i].page;
     if (packed == 0u) return 1.0;
     const ShadowPage page = unpackPage(packed);

@@ -27,14 +27,15 @@ SHARED_FN ShadowPage unpackPage(uint page) {
 }
 
 // One shadow map. Set 0, kFrameShadowMaps. Depth is reversed: kShadowMapNear / w of lights that are somewhere, w metres along the map's axis; of
-// directional ones from 1 at the first object to 0 behind the last. Of a cube's faces only `page` is looked at.
+// directional ones from 1 at the first object to 0 behind the last. Of a cube's faces only `page` is looked at, and
+// the origin of local lights only with kShadowsWait.
 struct ShadowMap {
     uint page;
     float scale;     // texels to a metre across the axis at w = 1, of directional lights anywhere
     vec3 right;      // the warp matrix, without what the page does: across, down and along the axis, unit
     vec3 down;
     vec3 forward;
-    vec3 origin;     // directional: the middle of the nearest side, in shading space
+    vec3 origin;     // the light, directional: the middle of the nearest side; in shading space
     float fall;      // directional: of depth in a metre
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <luciole/error.hpp>
+#include <ranges>
 
 #include "render/lighting/light_volume.shared.h"
 #include "render/shadow/seen_space.hpp"
@@ -132,7 +133,7 @@ void ShadowPlan::update(const Inputs& in) {
     for (auto& [key, kept] : kept_) kept.wanted = false;
     collect(in);
     fit(in);
-    placePages();
+    placePages(in);
     chooseDirty(in);
     if (in.settings.onOverflow == OnOverflow::fail && !(stats_.lost.empty() && stats_.waiting.empty())) {
         const ShadowStats::Without first = stats_.lost.empty() ? stats_.waiting.front() : stats_.lost.front();
@@ -324,17 +325,39 @@ void ShadowPlan::fit(const Inputs& in) {
     stats_.texels = texels;
 }
 
-void ShadowPlan::placePages() {
+/// Whether a map's page has the size for it. One size too large is as good, and moving closer and back again draws nothing anew.
+bool ShadowPlan::fits(const PlannedMap& map, const Kept& kept) const {
+    return kept.page.side == map.side || (kept.page.side == 2 * map.side && stats_.coarser == 0);
+}
+
+/// The maps that have to be drawn, the most visible first.
+std::vector<uint32_t> ShadowPlan::due(const Inputs& in) const {
+    std::vector<uint32_t> found;
+    for (uint32_t i = 0; i < maps_.size(); ++i) {
+        if (maps_[i].side == 0) continue;
+        const Kept& kept = kept_.at({maps_[i].light, maps_[i].face});
+        if (!fits(maps_[i], kept) || kept.drawn != signatureOfPage(in, kept.page, kept.casting)) found.push_back(i);
+    }
+    std::ranges::stable_sort(found, std::greater{}, [&](uint32_t i) { return maps_[i].pixels; });
+    return found;
+}
+
+void ShadowPlan::placePages(const Inputs& in) {
+    std::vector<bool> waits(maps_.size());  // in a page of whatever size: it holds something
+    if (const uint32_t most = in.settings.shadowRedraws; most != 0) {
+        const std::vector<uint32_t> order = due(in);
+        for (const uint32_t i : order | std::views::drop(most)) waits[i] = true;
+    }
     const auto free = [&](Kept& kept) {
         if (kept.page.side != 0) pages_.free(kept.page);
         kept.page = {};
         kept.drawn = kept.still = 0;
     };
     std::vector<PlannedMap*> missing;
-    for (PlannedMap& map : maps_) {
+    for (uint32_t i = 0; i < maps_.size(); ++i) {
+        PlannedMap& map = maps_[i];
         Kept& kept = kept_.at({map.light, map.face});
-        // A page one size too large is as good, and moving closer and back again draws nothing anew.
-        if (kept.page.side != map.side && (kept.page.side != 2 * map.side || stats_.coarser > 0)) free(kept);
+        if (!fits(map, kept) && !waits[i]) free(kept);
         if (kept.page.side == 0 && map.side != 0) missing.push_back(&map);
     }
     std::ranges::stable_sort(missing, std::greater{}, &PlannedMap::side);
@@ -366,40 +389,34 @@ void ShadowPlan::placePages() {
     for (PlannedMap& map : maps_) map.page = kept_.at({map.light, map.face}).page;
 }
 
-uint64_t ShadowPlan::signatureOfPage(const Inputs& in, const PlannedMap& map, uint64_t casting) const {
-    return Signature().add(casting).add(map.page.first.x).add(map.page.first.y).add(map.page.side).add(uint32_t(in.settings.shadowCasters)).value();
+uint64_t ShadowPlan::signatureOfPage(const Inputs& in, const Page& page, uint64_t casting) {
+    return Signature().add(casting).add(page.first.x).add(page.first.y).add(page.side).add(uint32_t(in.settings.shadowCasters)).value();
 }
 
 void ShadowPlan::chooseDirty(const Inputs& in) {
-    dirty_.clear();
-    std::vector<ShadowFrustum> asked;
-    for (const PlannedMap& map : maps_) asked.push_back(map.frustum);
-    for (uint32_t i = 0; i < maps_.size(); ++i) {
-        if (maps_[i].page.side == 0) continue;
+    for (PlannedMap& map : maps_) {
+        if (map.side == 0) continue;
         ++stats_.maps;
-        const Kept& kept = kept_.at({maps_[i].light, maps_[i].face});
-        maps_[i].drawn = kept.drawn != 0;
-        if (kept.drawn == signatureOfPage(in, maps_[i], kept.casting)) continue;
-        dirty_.push_back(i);
-        if (maps_[i].drawn) maps_[i].frustum = kept.frustum;  // until it is drawn anew
+        map.drawn = kept_.at({map.light, map.face}).drawn != 0;
     }
-    std::ranges::stable_sort(dirty_, std::greater{}, [&](uint32_t i) { return maps_[i].pixels; });
+    dirty_ = due(in);
     if (const uint32_t most = in.settings.shadowRedraws; most != 0 && dirty_.size() > most) {
         std::vector<bool> told(in.lights.size());
         for (const uint32_t i : std::span(dirty_).subspan(most)) {
-            const uint32_t light = maps_[i].light;
-            if (!told[light])
-                stats_.waiting.push_back({light, fmt::format("its map waits to be drawn, as {} a frame are (shadow-redraws)", most)});
-            told[light] = true;
+            PlannedMap& map = maps_[i];
+            if (map.drawn) map.frustum = kept_.at({map.light, map.face}).frustum;
+            if (!told[map.light])
+                stats_.waiting.push_back({map.light, fmt::format("its map waits to be drawn, as {} a frame are (shadow-redraws)", most)});
+            told[map.light] = true;
         }
         dirty_.resize(most);
     }
     for (const uint32_t i : dirty_) {
         PlannedMap& map = maps_[i];
         Kept& kept = kept_.at({map.light, map.face});
-        map.frustum = kept.frustum = asked[i];
+        kept.frustum = map.frustum;
         map.overStill = kept.anyMoves;
-        map.stillDirty = kept.anyMoves && kept.still != signatureOfPage(in, map, kept.standing);
+        map.stillDirty = kept.anyMoves && kept.still != signatureOfPage(in, map.page, kept.standing);
         for (uint32_t caster = 0; caster < in.casters.size(); ++caster) {
             if (!castsInto(in, map, caster)) continue;
             if (!map.overStill || in.casters[caster].version > 0)
@@ -407,8 +424,8 @@ void ShadowPlan::chooseDirty(const Inputs& in) {
             else if (map.stillDirty)
                 map.stillCasters.push_back(caster);
         }
-        if (map.stillDirty) kept.still = signatureOfPage(in, map, kept.standing);
-        kept.drawn = signatureOfPage(in, map, kept.casting);
+        if (map.stillDirty) kept.still = signatureOfPage(in, map.page, kept.standing);
+        kept.drawn = signatureOfPage(in, map.page, kept.casting);
         map.drawn = true;
         ++stats_.drawn;
     }

@@ -109,10 +109,12 @@ private:
     void collectLocal(const Inputs& in, uint32_t light);
     void collectDirectional(const Inputs& in, uint32_t light);
     void add(const Inputs& in, PlannedMap map);
-    uint64_t signatureOfPage(const Inputs& in, const PlannedMap& map, uint64_t casting) const;
+    static uint64_t signatureOfPage(const Inputs& in, const Page& page, uint64_t casting);
     static bool castsInto(const Inputs& in, const PlannedMap& map, uint32_t caster);
     void fit(const Inputs& in);
-    void placePages();
+    bool fits(const PlannedMap& map, const Kept& kept) const;
+    std::vector<uint32_t> due(const Inputs& in) const;
+    void placePages(const Inputs& in);
     void chooseDirty(const Inputs& in);
 
     std::map<Key, Kept> kept_;
