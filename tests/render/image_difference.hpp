@@ -34,4 +34,14 @@ inline ErrorSummary difference(const Image& image, const Image& yardstick, const
     return summaryOf(relativeError(yardstick, image), mask);
 }
 
+/// The share of light that shadows leave of each pixel's.
+inline std::vector<double> litShares(const Image& shadowed, const Image& lit) {
+    std::vector<double> shares(shadowed.data.size() / 3, 1);
+    for (size_t i = 0; i < shares.size(); ++i) {
+        const auto sum = [&](const Image& image) { return double(image.data[3 * i]) + double(image.data[3 * i + 1]) + double(image.data[3 * i + 2]); };
+        if (sum(lit) > 0) shares[i] = sum(shadowed) / sum(lit);
+    }
+    return shares;
+}
+
 }  // namespace luciole::test

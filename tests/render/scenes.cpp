@@ -23,12 +23,6 @@ Material shaped(Scene& scene, vec3 color, Function::Kind fa, float faParameter, 
     return material;
 }
 
-TestScene builtin(const std::string& uri) {
-    Scene scene = loadScene(uri);
-    const Camera camera = scene.cameras.at(0);
-    return {uri, std::move(scene), {camera, {192, 144}}};
-}
-
 /// A textured and normal-mapped floor, seen at a slant so that all mip levels count, under one directional light.
 TestScene texturedFloor() {
     Scene scene;
@@ -149,6 +143,26 @@ LightVolume torus(float ring, float tube, uint32_t around, uint32_t across, cons
     return volume;
 }
 
+TestScene builtin(const std::string& uri, uvec2 extent) {
+    Scene scene = loadScene(uri);
+    const Camera camera = scene.cameras.at(0);
+    return {uri, std::move(scene), {camera, extent}};
+}
+
+TestScene tiledFloor(float degrees) {
+    Scene scene;
+    const Material white = lambertMaterial(scene);
+    for (int y = -4; y <= 4; ++y)
+        for (int x = -4; x <= 4; ++x) addObject(scene, quad(0.49f), white, glm::translate(mat4(1), vec3(x, y, 0)));
+    const float angle = glm::radians(degrees);
+    const vec3 away(std::cos(angle) * 0.8f, std::cos(angle) * 0.6f, std::sin(angle));
+    scene.lights = {directionalLight(-away, vec3(1 / std::sin(angle))), pointLight(4.0f * away, vec3(100 / std::sin(angle)), 20),
+                    spotLight(6.0f * away, -away, 0.3f, 0.8f, vec3(100 / std::sin(angle)), 20)};
+    Camera camera;
+    camera.worldFromView = lookAt(vec3(0, -6, 3), vec3(0, 0, 0));
+    return {"tiled floor", std::move(scene), {camera, {160, 120}}};
+}
+
 TestScene studio() {
     Scene scene;
     using Kind = Function::Kind;
@@ -201,7 +215,7 @@ std::vector<TestScene> testScenes() {
     scenes.push_back(boundedLights());
     scenes.push_back(glass());
     for (const char* uri : {"builtin:hall?lights=64&triangles=8000", "builtin:materials", "builtin:fireflies?lights=100"})
-        scenes.push_back(builtin(uri));
+        scenes.push_back(builtin(uri, {192, 144}));
     return scenes;
 }
 

@@ -27,4 +27,10 @@ inline const std::vector<vec2> kAngle{{0, 0}, {0, 1}, {-1, 1}, {-1, -1}, {1, -1}
 /// Six spheres and a floor, shaped and metallic-roughness side by side, lit by every kind of light.
 TestScene studio();
 
+/// A scene that is built in, from its first camera.
+TestScene builtin(const std::string& uri, uvec2 extent);
+
+/// A floor of tiles that do not meet, each an object that may cast, under a light of each type that lies so many degrees above it.
+TestScene tiledFloor(float degrees);
+
 }  // namespace luciole::test
