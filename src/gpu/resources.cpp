@@ -138,6 +138,18 @@ void updateBuffer(const Context& context, const Buffer& target, std::span<const 
     });
 }
 
+void transitionImage(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to) {
+    const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
+                                          .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
+                                          .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
+                                          .oldLayout = from,
+                                          .newLayout = to,
+                                          .image = *image.handle,
+                                          .subresourceRange = {aspectOf(image.format), 0, image.mipLevels, 0, 1}};
+    commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
+}
+
 Image uploadImage(const Context& context, const std::string& name, vk::Format format, vk::Extent2D extent,
                   std::span<const std::span<const std::byte>> levels) {
     const auto levelCount = uint32_t(levels.size());
@@ -157,21 +169,10 @@ Image uploadImage(const Context& context, const std::string& name, vk::Format fo
                           .imageExtent = {std::max(1u, extent.width >> level), std::max(1u, extent.height >> level), 1}});
         offset += levels[level].size();
     }
-    const auto transition = [&](const vk::raii::CommandBuffer& commands, vk::ImageLayout from, vk::ImageLayout to) {
-        const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                              .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                              .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                              .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
-                                              .oldLayout = from,
-                                              .newLayout = to,
-                                              .image = *image.handle,
-                                              .subresourceRange = {vk::ImageAspectFlagBits::eColor, 0, levelCount, 0, 1}};
-        commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-    };
     context.runOnce([&](const vk::raii::CommandBuffer& commands) {
-        transition(commands, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+        transitionImage(commands, image, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
         commands.copyBufferToImage(staging.handle(), *image.handle, vk::ImageLayout::eTransferDstOptimal, copies);
-        transition(commands, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
+        transitionImage(commands, image, vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal);
     });
     return image;
 }

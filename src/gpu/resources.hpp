@@ -83,6 +83,9 @@ Buffer uploadBuffer(const Context& context, const std::string& name, const std::
 /// Puts `data` at the beginning of a buffer by way of `staging`, which is made larger if need be, and waits. No frame may be on its way.
 void updateBuffer(const Context& context, const Buffer& target, std::span<const std::byte> data, MappedBuffer& staging);
 
+/// Takes a whole image to another layout, once: waits for everything before, and all that comes after waits.
+void transitionImage(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to);
+
 /// A sampled image in the layout that shaders read. `levels[i]` holds the texels of mip level i, tightly packed.
 Image uploadImage(const Context& context, const std::string& name, vk::Format format, vk::Extent2D extent,
                   std::span<const std::span<const std::byte>> levels);

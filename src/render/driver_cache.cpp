@@ -9,18 +9,13 @@
 #include <luciole/output.hpp>
 #include <optional>
 
+#include "hash.hpp"
+
 namespace luciole::render {
 namespace {
 
 constexpr uint64_t kLargestFile = 1 << 20;  // bytes; ours have some thousand
 constexpr std::string_view kCheck = "check\t";
-
-/// Fowler, Noll and Vo's hash FNV-1a, 64 bits.
-uint64_t hashOf(std::string_view text) {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (const unsigned char byte : text) hash = (hash ^ byte) * 0x100000001b3u;
-    return hash;
-}
 
 std::string printable(std::string text) {
     std::ranges::replace_if(
@@ -41,7 +36,7 @@ std::optional<std::string_view> checked(std::string_view text) {
     const size_t check = text.rfind(kCheck);
     if (check == std::string_view::npos) return std::nullopt;
     const std::string_view body = text.substr(0, check);
-    if (text.substr(check) != fmt::format("{}{:016x}\n", kCheck, hashOf(body))) return std::nullopt;
+    if (text.substr(check) != fmt::format("{}{:016x}\n", kCheck, Hash().add(body).value())) return std::nullopt;
     return body;
 }
 
@@ -84,7 +79,7 @@ void DriverCache::load() {
 void DriverCache::save() const {
     std::string text = header_ + "\n";
     for (const auto& [key, value] : values_) text += fmt::format("{}\t{}\n", key, value);
-    text += fmt::format("{}{:016x}\n", kCheck, hashOf(text));
+    text += fmt::format("{}{:016x}\n", kCheck, Hash().add(text).value());
     try {
         std::filesystem::create_directories(file_.parent_path());
         writeFileAtomically(file_, std::as_bytes(std::span(text)));

@@ -41,7 +41,7 @@ Tolerance toleranceOf(GBufferLayout layout, bool textured) {
 void checkAgainstReference(ValidatedRenderer& renderer, const TestScene& test, std::initializer_list<GBufferLayout> layouts) {
     INFO("scene: " << test.name);
     std::vector<std::string> layers = kMaskLayers;
-    layers.push_back("light-fingerprint");
+    layers.emplace_back("light-fingerprint");
     const Frame reference = renderReference(test.scene, test.view, {}, layers);
     const auto mask = interior(reference, test.hardLights ? &reference.aovs.at("light-fingerprint") : nullptr);
     for (const auto layout : layouts) {

@@ -8,6 +8,7 @@
 #include <luciole/error.hpp>
 #include <luciole/scene_io.hpp>
 
+#include "hash.hpp"
 #include "scene/builtin/hall.hpp"
 #include "scene/visibility.hpp"
 #include "support.hpp"
@@ -15,24 +16,6 @@
 using namespace luciole;
 
 namespace {
-
-/// FNV-1a over what is passed to it.
-class Hash {
-public:
-    template <class T>
-    void add(const T& value) {
-        unsigned char bytes[sizeof(T)];
-        std::memcpy(bytes, &value, sizeof(T));
-        for (const unsigned char byte : bytes) state_ = (state_ ^ byte) * 1099511628211ull;
-    }
-    void add(const std::string& text) {
-        for (const char letter : text) add(letter);
-    }
-    uint64_t value() const { return state_; }
-
-private:
-    uint64_t state_ = 14695981039346656037ull;
-};
 
 uint64_t hashOf(const Scene& scene) {
     Hash hash;

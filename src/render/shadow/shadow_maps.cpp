@@ -30,20 +30,9 @@ void ShadowMaps::makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D ext
                            {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst});
     context_.runOnce([&](const vk::raii::CommandBuffer& commands) {
         const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
-        const auto turn = [&](vk::ImageLayout from, vk::ImageLayout to) {
-            const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                                  .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,
-                                                  .dstStageMask = vk::PipelineStageFlagBits2::eAllCommands,
-                                                  .dstAccessMask = vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
-                                                  .oldLayout = from,
-                                                  .newLayout = to,
-                                                  .image = *atlas.handle,
-                                                  .subresourceRange = all};
-            commands.pipelineBarrier2({.imageMemoryBarrierCount = 1, .pImageMemoryBarriers = &barrier});
-        };
-        turn(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
+        gpu::transitionImage(commands, atlas, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
         commands.clearDepthStencilImage(*atlas.handle, vk::ImageLayout::eTransferDstOptimal, vk::ClearDepthStencilValue{0.0f, 0}, all);
-        turn(vk::ImageLayout::eTransferDstOptimal, kLayout);
+        gpu::transitionImage(commands, atlas, vk::ImageLayout::eTransferDstOptimal, kLayout);
     });
 }
 

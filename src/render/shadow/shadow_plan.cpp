@@ -6,10 +6,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <luciole/error.hpp>
 #include <ranges>
 
+#include "hash.hpp"
 #include "render/lighting/light_volume.shared.h"
 #include "render/shadow/seen_space.hpp"
 #include "render/tables.hpp"
@@ -28,26 +28,10 @@ constexpr uint32_t kCascades = 4;
 constexpr double kMostBorder = 4.0 / 3;   // so much wider is a map then
 constexpr double kPixelsPerTexel = 2;     // where the light ends, if that lies no nearer to the eye than its range
 
-/// FNV-1a, 64 bits.
-class Signature {
-public:
-    template <typename T>
-    Signature& add(const T& value) {
-        static_assert(std::is_arithmetic_v<T>);
-        unsigned char bytes[sizeof value];
-        std::memcpy(bytes, &value, sizeof value);
-        for (const unsigned char byte : bytes) hash_ = (hash_ ^ byte) * 1099511628211ull;
-        return *this;
-    }
-    Signature& add(dvec3 v) { return add(v.x).add(v.y).add(v.z); }
-    uint64_t value() const { return hash_ | 1; }  // 0 stands for nothing
-
-private:
-    uint64_t hash_ = 14695981039346656037ull;
-};
+uint64_t signature(const Hash& hash) { return hash.value() | 1; }  // 0 stands for nothing
 
 uint64_t signatureOf(const ShadowFrustum& frustum, uint32_t linkGroup) {
-    return Signature().add(frustum.origin).add(frustum.right).add(frustum.down).add(frustum.forward).add(frustum.tangent).add(frustum.depth).add(linkGroup).value();
+    return signature(Hash().add(frustum.origin).add(frustum.right).add(frustum.down).add(frustum.forward).add(frustum.tangent).add(frustum.depth).add(linkGroup));
 }
 
 /// How far a box reaches along a direction.
@@ -247,7 +231,7 @@ void ShadowPlan::add(const Inputs& in, PlannedMap map) {
     const uint32_t group = in.lights[map.light].linkGroup;
     const uint64_t light = signatureOf(map.frustum, group);
     if (kept.casting == 0 || kept.lightSignature != light || kept.version != in.version) {
-        Signature casting, standing;
+        Hash casting, standing;
         kept.anyCaster = kept.anyMoves = false;
         for (uint32_t i = 0; i < in.casters.size(); ++i) {
             if (!castsInto(in, map, i)) continue;
@@ -260,8 +244,8 @@ void ShadowPlan::add(const Inputs& in, PlannedMap map) {
         }
         kept.lightSignature = light;
         kept.version = in.version;
-        kept.casting = casting.add(light).value();
-        kept.standing = standing.add(light).value();
+        kept.casting = signature(casting.add(light));
+        kept.standing = signature(standing.add(light));
     }
     if (!kept.anyCaster) map.side = 0;
     maps_.push_back(std::move(map));
@@ -390,7 +374,7 @@ void ShadowPlan::placePages(const Inputs& in) {
 }
 
 uint64_t ShadowPlan::signatureOfPage(const Inputs& in, const Page& page, uint64_t casting) {
-    return Signature().add(casting).add(page.first.x).add(page.first.y).add(page.side).add(uint32_t(in.settings.shadowCasters)).value();
+    return signature(Hash().add(casting).add(page.first).add(page.side).add(uint32_t(in.settings.shadowCasters)));
 }
 
 void ShadowPlan::chooseDirty(const Inputs& in) {
