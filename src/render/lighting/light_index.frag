@@ -35,10 +35,10 @@ vec4 digits(uint image) {
 
 // Writes the index of a light that hits the pixel; masks, blending and the stencil see to where.
 void main() {
+    if (!hits()) discard;
     written = index;
     if (kShadowed == kIndexShare)
         written = packedShare(lightArrives(unpackPosition(vec3(sampleHere() / view.extent, surfaceDepth()))), indexLimit(kKind, kIndexBits, kUnit));
-    if (!hits()) discard;
 #ifdef COUNTED
     count = 1.0 / 255.0;
 #endif

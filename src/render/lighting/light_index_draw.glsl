@@ -66,7 +66,6 @@ bool hits() {
     // A stencil that does not let a light through counts it before the depth test, hidden or not: so it is tested here.
     if (kSurfaces == 0u) return kGuarded == 0u || gl_FragCoord.z >= depth;
     const vec3 P = unpackPosition(vec3(sampleHere() / view.extent, depth));
-    if (kShadowed == kIndexIfLit && depth > 0.0 && lightArrives(P) < 0.5) return false;
     LightConstants light;
     light.position = positionRange.xyz;
     light.range = positionRange.w;
@@ -79,6 +78,6 @@ bool hits() {
     light.range *= 1.00001;  // the surface finds its position by itself
     light.cosOuter -= 1e-5;
 #endif
-    return depth > 0.0 && reaches(light, P, 0u);
+    return depth > 0.0 && reaches(light, P, 0u) && (kShadowed != kIndexIfLit || lightArrives(P) >= 0.5);
 }
 #endif

@@ -46,6 +46,7 @@ bool ShadowMaps::upload(gpu::Buffer& buffer, const char* name, std::span<const s
 }
 
 bool ShadowMaps::update(const ShadowPlan::Inputs& in, uint32_t lightCount) {
+    if (!*atlas_.handle || plan_.needsStill() != bool(*still_.handle)) plan_.forget();  // the last frame found no room for one
     plan_.update(in);
     bool changed = false;
     const vk::Extent2D extent{plan_.extent().x, plan_.extent().y};
