@@ -19,6 +19,9 @@ const uint kFrameLightTree = 12u;     // sampled image: light_tree.shared.h
 const uint kFrameShadowedLights = 13u;  // storage buffers: shadow.shared.h
 const uint kFrameShadowMaps = 14u;
 const uint kFrameShadowAtlas = 15u;   // sampled image, depth
+const uint kFrameUniformShadowedLights = 16u;  // uniform buffer: the first shadowed lights once more
+const uint kFrameStorageCount = 8u;  // of these
+const uint kFrameSampledCount = 3u;
 
 const uint kPassSet = 1u;
 const uint kPassSampled = 0u;       // sampled images, by the slot that the pass names

@@ -11,6 +11,8 @@
 #include <memory>
 #include <mutex>
 
+#include "gpu/bindings.shared.h"
+
 namespace luciole::gpu {
 namespace {
 
@@ -101,10 +103,12 @@ std::string whyUnusable(const vk::raii::PhysicalDevice& device) {
     if (!v13.synchronization2) return "lacks the feature synchronization2";
     if (!graphicsQueueFamily(device)) return "has no queue for graphics and compute";
     // Those of bindings.shared.h; of the least that Vulkan guarantees, 4 and 16, no desktop driver is known.
-    if (properties.limits.maxPerStageDescriptorStorageBuffers < 14)
-        return fmt::format("expected 14 storage buffers a stage, found {}", properties.limits.maxPerStageDescriptorStorageBuffers);
-    if (properties.limits.maxPerStageDescriptorSampledImages < 22 || properties.limits.maxPerStageDescriptorSamplers < 22)
-        return fmt::format("expected 22 sampled images and samplers a stage, found {} and {}",
+    constexpr uint32_t kStorage = shared::kFrameStorageCount + shared::kPassStorageCount;
+    constexpr uint32_t kSampled = shared::kFrameSampledCount + shared::kPassSampledCount + shared::kMaterialTextures;
+    if (properties.limits.maxPerStageDescriptorStorageBuffers < kStorage)
+        return fmt::format("expected {} storage buffers a stage, found {}", kStorage, properties.limits.maxPerStageDescriptorStorageBuffers);
+    if (properties.limits.maxPerStageDescriptorSampledImages < kSampled || properties.limits.maxPerStageDescriptorSamplers < kSampled)
+        return fmt::format("expected {} sampled images and samplers a stage, found {} and {}", kSampled,
                            properties.limits.maxPerStageDescriptorSampledImages, properties.limits.maxPerStageDescriptorSamplers);
     if (properties.limits.maxImageDimension2D < 8192)
         return fmt::format("expected images of 8192 texels, found {}", properties.limits.maxImageDimension2D);

@@ -33,6 +33,7 @@ std::vector<vk::raii::DescriptorSetLayout> makeSetLayouts(const Context& context
     add(frame, kFrameLightTree, 1, Type::eCombinedImageSampler);
     add(frame, kFrameShadowedLights, 2, Type::eStorageBuffer);
     add(frame, kFrameShadowAtlas, 1, Type::eCombinedImageSampler);
+    add(frame, kFrameUniformShadowedLights, 1, Type::eUniformBuffer);
     add(pass, kPassSampled, kPassSampledCount, Type::eCombinedImageSampler);
     // Immutable samplers, for a pass writes only the slots that it uses: Mesa's software driver (22.3) reads the sampler of
     // every slot and would follow a null pointer.

@@ -138,6 +138,17 @@ void updateBuffer(const Context& context, const Buffer& target, std::span<const 
     });
 }
 
+bool Table::update(const Context& context, const std::string& name, std::span<const std::byte> data, uint64_t least) {
+    const uint64_t bytes = std::max<uint64_t>(data.size(), least);
+    const bool larger = bytes > buffer_.bytes;
+    using Usage = vk::BufferUsageFlagBits;
+    if (larger) buffer_ = makeBuffer(context, name, bytes, Usage::eStorageBuffer | Usage::eUniformBuffer | Usage::eTransferDst);
+    if (!larger && std::ranges::equal(held_, data)) return false;
+    updateBuffer(context, buffer_, data, staging_);
+    held_.assign(data.begin(), data.end());
+    return larger;
+}
+
 void transitionImage(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to) {
     const vk::ImageMemoryBarrier2 barrier{.srcStageMask = vk::PipelineStageFlagBits2::eAllCommands,
                                           .srcAccessMask = vk::AccessFlagBits2::eMemoryWrite,

@@ -83,6 +83,19 @@ Buffer uploadBuffer(const Context& context, const std::string& name, const std::
 /// Puts `data` at the beginning of a buffer by way of `staging`, which is made larger if need be, and waits. No frame may be on its way.
 void updateBuffer(const Context& context, const Buffer& target, std::span<const std::byte> data, MappedBuffer& staging);
 
+/// A table in the device's memory that shaders read, as storage or uniform buffer, and that the host replaces between frames.
+class Table {
+public:
+    /// Waits, but for data that is there already. No frame may be on its way. \param least bytes of the buffer \return whether it is another buffer
+    bool update(const Context& context, const std::string& name, std::span<const std::byte> data, uint64_t least);
+    vk::Buffer handle() const { return *buffer_.handle; }
+
+private:
+    Buffer buffer_;
+    MappedBuffer staging_;
+    std::vector<std::byte> held_;
+};
+
 /// Takes a whole image to another layout, once: waits for everything before, and all that comes after waits.
 void transitionImage(const vk::raii::CommandBuffer& commands, const Image& image, vk::ImageLayout from, vk::ImageLayout to);
 

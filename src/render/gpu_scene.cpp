@@ -27,6 +27,7 @@ using Usage = vk::BufferUsageFlagBits;
 /// What shaders read the table of lights through, if all fit: no buffer of a table is smaller.
 constexpr vk::DeviceSize kUniformLightBytes = kUniformLights * sizeof(PackedLight);
 constexpr vk::DeviceSize kUniformLightKindBytes = kUniformLightKinds * sizeof(LightKind);
+constexpr vk::DeviceSize kUniformShadowedLightBytes = kUniformLights * sizeof(uint32_t);
 
 /// What shadow volumes are made from.
 constexpr auto kReadByVolumes = Usage::eStorageBuffer | Usage::eTransferSrc;
@@ -139,6 +140,7 @@ GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines,
     uploadFunctions(scene);
     linkTable_ = linkTable(scene, linkWords_);
     links_ = gpu::uploadBuffer(context_, "link table", linkTable_, Usage::eStorageBuffer);
+    shadowedLights_.update(context_, "shadowed lights", {}, kUniformShadowedLightBytes);
     view_ = gpu::MappedBuffer(context_, "view", sizeof(ViewConstants), Usage::eUniformBuffer);
     bounceView_ = gpu::MappedBuffer(context_, "bounce view", sizeof(ViewConstants), Usage::eUniformBuffer);
     uploadLights(sceneLights_, {});
@@ -296,9 +298,9 @@ vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
 
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
-    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * 3},
-                                            {vk::DescriptorType::eStorageBuffer, 2 * (1 + kFrameFunctions - kFrameLights + kFrameVolumeVertices - kFrameLightKinds + 1 + 2)},
-                                            {vk::DescriptorType::eUniformBuffer, count + 2 * 4}};
+    const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * kFrameSampledCount},
+                                            {vk::DescriptorType::eStorageBuffer, 2 * kFrameStorageCount},
+                                            {vk::DescriptorType::eUniformBuffer, count + 2 * 5}};
     pool_ = vk::raii::DescriptorPool(context_.device(), {.maxSets = count + 2,
                                                          .poolSizeCount = uint32_t(std::size(sizes)),
                                                          .pPoolSizes = sizes});
@@ -437,7 +439,8 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
                                 {kFrameUniformLightKinds, *lightKinds_.handle, uniform, std::min(kUniformLightKindBytes, most)},
                                 {kFrameVolumes, *volumeTable_.handle, storage, VK_WHOLE_SIZE},
                                 {kFrameVolumeVertices, *volumeVertices_.handle, storage, VK_WHOLE_SIZE},
-                                {kFrameShadowedLights, stencilled ? shadowVolumes_.shadowedLights() : shadows_.shadowedLights(), storage, VK_WHOLE_SIZE},
+                                {kFrameShadowedLights, shadowedLights_.handle(), storage, VK_WHOLE_SIZE},
+                                {kFrameUniformShadowedLights, shadowedLights_.handle(), uniform, kUniformShadowedLightBytes},
                                 {kFrameShadowMaps, stencilled ? shadowVolumes_.mask() : shadows_.maps(), storage, VK_WHOLE_SIZE}};
     for (const Binding& binding : bindings) {
         const vk::DescriptorBufferInfo info{.buffer = binding.buffer, .range = binding.range};
@@ -485,8 +488,10 @@ bool GpuScene::setShadows(const View& view, const RenderSettings& settings) {
                                 .version = version_};
     const auto images = shadows_.images();
     const bool volumes = settings.shadows == Shadows::volumes;
-    const bool changed = volumes ? shadowVolumes_.update(in, volumeMeshes(), lightCount()) : shadows_.update(in, lightCount());
-    if (changed || shadowKind_ != settings.shadows) {
+    std::vector<uint32_t> shadowed(lightCount());
+    const bool changed = volumes ? shadowVolumes_.update(in, volumeMeshes(), shadowed) : shadows_.update(in, shadowed);
+    const bool larger = shadowedLights_.update(context_, "shadowed lights", std::as_bytes(std::span(shadowed)), kUniformShadowedLightBytes);
+    if (changed || larger || shadowKind_ != settings.shadows) {
         shadowKind_ = settings.shadows;
         writeFrameSets();
     }

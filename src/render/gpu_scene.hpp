@@ -184,7 +184,8 @@ private:
     Bounds boundsWorld_;  ///< of all objects
     ShadowMaps shadows_;
     ShadowVolumes shadowVolumes_;
-    Shadows shadowKind_ = Shadows::off;  ///< whose buffers the frame's set names
+    gpu::Table shadowedLights_;          ///< of each light, what keeps it off
+    Shadows shadowKind_ = Shadows::off;  ///< which of the two the frame's set names
     uint32_t equations_ = 0;
     uint32_t lightFeatures_ = 0;
     std::vector<uint32_t> linkTable_;

@@ -57,7 +57,8 @@ vec3 alongSurface(vec3 P, ivec2 step_) {
 // How much of the light its shadow leaves at a position. What normal the surface has, only the depth of its neighbours tells.
 float lightArrives(vec3 P) {
     const vec3 N = cross(alongSurface(P, ivec2(1, 0)), alongSurface(P, ivec2(0, 1)));
-    return unshadowed(lightAt(lightIndex), P, N * inversesqrt(max(dot(N, N), 1e-30)));
+    const LightConstants light = lightAt(lightIndex);
+    return unshadowed(light, P, N * inversesqrt(max(dot(N, N), 1e-30)), arrivalAt(light, P).L);
 }
 
 // Whatever it is linked to: whose surface it is, the depth does not tell.

@@ -197,7 +197,7 @@ LightTerms lightTerms(ShadingPoint p, LightConstants light) {
     }
     if (hasEquation(p, kEquationMetallicRoughness)) shares = sharesMetallicRoughness(p, arrival.L, keep);
     if (hasEquation(p, kEquationShaped)) shares = sharesShaped(p, shapedV, arrival.L, keep);
-    if (usesLights(kUsesShadows) && shadowsAsked && shares != vec3(0) && arrival.E != vec3(0)) arrival.E *= unshadowed(light, p.s.P, p.s.N);
+    if (usesLights(kUsesShadows) && shadowsAsked && shares != vec3(0) && arrival.E != vec3(0)) arrival.E *= unshadowed(light, p.s.P, p.s.N, arrival.L);
     return termsOf(shares, arrival.E);
 }
 

@@ -6,6 +6,7 @@
 #include "render/shadow/shadow.shared.h"
 
 layout(set = 0, binding = 13, scalar) readonly buffer ShadowedLights { uint shadowedLights[]; };
+layout(set = 0, binding = 16, scalar) uniform UniformShadowedLights { uint uniformShadowedLights[kUniformLights]; };
 layout(set = 0, binding = 14, scalar) readonly buffer ShadowMaps { ShadowMap shadowMaps[]; };
 layout(set = 0, binding = 14, scalar) readonly buffer ShadowMask { uint shadowMask[]; };  // instead, with shadow volumes
 layout(set = 0, binding = 15) uniform sampler2D shadowAtlas;
@@ -57,6 +58,9 @@ vec3 warped(uint i, uint face, bool cube, vec3 v) {
     return vec3(dot(shadowMaps[i].right, v), dot(shadowMaps[i].down, v), dot(shadowMaps[i].forward, v));
 }
 
+// The last of these alone.
+float along(uint i, uint face, bool cube, vec3 v) { return cube ? alongCubeFace(face, v) : dot(shadowMaps[i].forward, v); }
+
 // Of the cascades the first that holds the position.
 uint cascadeOf(uint first, uint count, vec3 P) {
     for (uint i = first; i < first + count; ++i) {
@@ -77,13 +81,14 @@ bool isMarked(uint light) {
 #endif
 }
 
-// The share of a light that arrives at P, where the surface has normal N.
-float unshadowed(LightConstants light, vec3 P, vec3 N) {
-    const uint maps = shadowedLights[light.sceneIndex];
+// The share of a light that arrives at P, where the surface has normal N; L to the light.
+float unshadowed(LightConstants light, vec3 P, vec3 N, vec3 L) {
+    const uint maps = usesLights(kUsesUniformLights) ? uniformShadowedLights[light.sceneIndex] : shadowedLights[light.sceneIndex];
     const uint count = maps & ((1u << kShadowCountBits) - 1u);
     if (count == 0u) return 1.0;
     if (usesLights(kShadowsStencilled)) return isMarked(maps >> kShadowCountBits) ? 0.0 : 1.0;
-    const bool directional = usesLights(kUsesDirectional) && light.type == kLightDirectional, cube = count == kShadowCubeFaces;
+    const bool directional = usesLights(kUsesDirectional) && light.type == kLightDirectional;
+    const bool cube = !directional && (!usesLights(kUsesSpot) || count == kShadowCubeFaces);
     vec3 Q = P - light.position;
     const uint face = cubeFaceOf(Q);
     uint i = maps >> kShadowCountBits;
@@ -95,16 +100,15 @@ float unshadowed(LightConstants light, vec3 P, vec3 N) {
     const ShadowPage page = unpackPage(packed);
     float scale = 0.5 * page.side - pageBorder(page.side);
     if (!cube) scale = shadowMaps[i].scale;
-    vec3 pinShadow = warped(i, face, cube, Q);
-    const vec3 n = warped(i, face, cube, N);
     // Towards the light by what rounding and the G-buffer may have moved the surface, and off the surface, on the side that the light is on, by
     // as much as brings it before its own plane at the farthest texel that is asked (Holbert 2011, "Normal Offset Shadows"). Beyond a crease,
     // that one belongs to another plane, whose slope did not bias it enough.
-    const vec3 l = directional ? vec3(0, 0, -1) : -pinShadow * inversesqrt(max(dot(pinShadow, pinShadow), 1e-18));
-    const float texel = (directional ? 1.0 : pinShadow.z) / scale;
+    const float w = along(i, face, cube, Q), nz = along(i, face, cube, N);
+    const float texel = (directional ? 1.0 : w) / scale;
     const float reach = usesLights(kShadowsSmooth) ? kSmoothReach : usesLights(kShadowsJittered) ? kJitteredReach : 0.0;
-    const float offset = kNormalOffset * (0.5 + reach * page.softness) * texel * sqrt(max(1.0 - n.z * n.z, 0.0));
-    pinShadow += l * (kShadowBias * texel + surfaceSlack(P)) + n * (dot(n, l) < 0.0 ? -offset : offset);
+    const float offset = kNormalOffset * (0.5 + reach * page.softness) * texel * sqrt(max(1.0 - nz * nz, 0.0));
+    Q += L * (kShadowBias * texel + surfaceSlack(P)) + N * (dot(N, L) < 0.0 ? -offset : offset);
+    const vec3 pinShadow = warped(i, face, cube, Q);
     const float perW = directional ? 1.0 : 1.0 / max(pinShadow.z, 1e-9);
     const float depth = directional ? 1.0 - pinShadow.z * shadowMaps[i].fall : kShadowMapNear * perW;
     const vec2 at = page.center + scale * perW * pinShadow.xy;

@@ -57,6 +57,7 @@ SHARED_FN vec3 inCubeFace(uint face, vec3 v) {
     const bool x = face < 2u, y = !x && face < 4u;
     return vec3(side * (x ? v.z : y ? v.x : -v.x), y ? -v.z : -v.y, side * (x ? v.x : y ? v.y : v.z));
 }
+SHARED_FN float alongCubeFace(uint face, vec3 v) { return ((face & 1u) == 0u ? 1.0f : -1.0f) * (face < 2u ? v.x : face < 4u ? v.y : v.z); }
 
 const float kShadowMapNear = 0.01f;  // metres; luciole::kShadowNear
 

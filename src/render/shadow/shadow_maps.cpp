@@ -19,8 +19,7 @@ static_assert(sizeof(shared::ShadowMap) == 60 && sizeof(shared::ShadowPush) == 7
 
 ShadowMaps::ShadowMaps(const gpu::Context& context) : context_(context) {
     makeAtlas(atlas_, "shadow atlas", {1, 1});
-    upload(shadowedLights_, "shadowed lights", std::as_bytes(std::span<const uint32_t>()));
-    upload(maps_, "shadow maps", std::as_bytes(std::span<const shared::ShadowMap>()));
+    maps_.update(context, "shadow maps", {}, sizeof(shared::ShadowMap));
 }
 
 void ShadowMaps::makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D extent) {
@@ -36,16 +35,7 @@ void ShadowMaps::makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D ext
     });
 }
 
-bool ShadowMaps::upload(gpu::Buffer& buffer, const char* name, std::span<const std::byte> data) {
-    const uint64_t bytes = std::max<uint64_t>(data.size(), sizeof(shared::ShadowMap));
-    const bool larger = bytes > buffer.bytes;
-    if (larger) buffer = gpu::makeBuffer(context_, name, bytes, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
-    if (data.empty()) return larger;
-    gpu::updateBuffer(context_, buffer, data, staging_);
-    return larger;
-}
-
-bool ShadowMaps::update(const ShadowPlan::Inputs& in, uint32_t lightCount) {
+bool ShadowMaps::update(const ShadowPlan::Inputs& in, std::span<uint32_t> shadowedLights) {
     if (!*atlas_.handle || plan_.needsStill() != bool(*still_.handle)) plan_.forget();  // the last frame found no room for one
     plan_.update(in);
     bool changed = false;
@@ -60,24 +50,17 @@ bool ShadowMaps::update(const ShadowPlan::Inputs& in, uint32_t lightCount) {
         if (plan_.needsStill()) makeAtlas(still_, "shadow atlas, still", atlas_.extent);
         changed = true;
     }
-    std::vector<uint32_t> lights(lightCount, 0);
     std::vector<shared::ShadowMap> maps;
     const dvec3 eye(in.view.camera.worldFromView[3]);
     for (const PlannedMap& map : plan_.maps()) {
-        uint32_t& light = lights[map.light];
+        uint32_t& light = shadowedLights[map.light];
         if (light == 0) {
             light = uint32_t(maps.size()) << shared::kShadowCountBits | ShadowPlan::mapsOf(in.lights[map.light]);
             maps.resize(maps.size() + ShadowPlan::mapsOf(in.lights[map.light]));
         }
         maps[(light >> shared::kShadowCountBits) + map.face] = ShadowPlan::constants(map, in.lights[map.light].shadowSoftness, eye);
     }
-    const auto bring = [&](gpu::Buffer& buffer, const char* name, std::vector<std::byte>& uploaded, std::span<const std::byte> data) {
-        if (std::ranges::equal(uploaded, data)) return;
-        changed |= upload(buffer, name, data);
-        uploaded.assign(data.begin(), data.end());
-    };
-    bring(shadowedLights_, "shadowed lights", uploadedLights_, std::as_bytes(std::span(lights)));
-    bring(maps_, "shadow maps", uploadedMaps_, std::as_bytes(std::span(maps)));
+    changed |= maps_.update(context_, "shadow maps", std::as_bytes(std::span(maps)), sizeof(shared::ShadowMap));
     return changed;
 }
 

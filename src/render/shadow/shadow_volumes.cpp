@@ -55,7 +55,7 @@ void ShadowVolumes::makeEdges(const Meshes& meshes) {
     edges_ = gpu::uploadBuffer(context_, "edges", edges, vk::BufferUsageFlagBits::eStorageBuffer);
 }
 
-bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, uint32_t lightCount) {
+bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, std::span<uint32_t> shadowedLights) {
     if (edgeRanges_.empty()) makeEdges(meshes);
     stats_ = {};
     hidden_.clear();
@@ -95,12 +95,8 @@ bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, u
     reach_ = in.view.camera.orthographic ? float(4 * farthest + 1) : 0;  // of directions at infinity it would see none
     words_ = std::max<uint32_t>(1, (uint32_t(hidden_.size()) + 31) / 32);
     stats_.bytes = 4 * pixels * words_;
-    std::vector<uint32_t> lights(lightCount, 0);
-    for (uint32_t bit = 0; bit < hidden_.size(); ++bit) lights[hidden_[bit].light] = bit << shared::kShadowCountBits | shared::kShadowVolumes;
-    const bool larger = lights_.bytes < 4 * lights.size();
-    if (larger) lights_ = gpu::makeBuffer(context_, "shadowed lights", 4 * lights.size(), vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
-    gpu::updateBuffer(context_, lights_, std::as_bytes(std::span(lights)), staging_);
-    if (stats_.bytes == mask_.bytes) return larger;
+    for (uint32_t bit = 0; bit < hidden_.size(); ++bit) shadowedLights[hidden_[bit].light] = bit << shared::kShadowCountBits | shared::kShadowVolumes;
+    if (stats_.bytes == mask_.bytes) return false;
     mask_ = gpu::makeBuffer(context_, "shadow mask", stats_.bytes, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
     return true;
 }

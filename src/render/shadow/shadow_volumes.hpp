@@ -21,12 +21,12 @@ public:
 
     explicit ShadowVolumes(const gpu::Context& context) : context_(context) {}
 
-    /// Finds out which lights hide behind which objects, and tells shaders. \param lightCount of the table of lights
-    /// \return whether buffers are others than before
+    /// Finds out which lights hide behind which objects. \param shadowedLights for each light zero, or what shaders know of its bit
+    /// (shadow.shared.h): written
+    /// \return whether the mask is another buffer than before
     /// \throws Error(limit) with on-overflow fail, for lights that go without a shadow
-    bool update(const ShadowPlan::Inputs& in, const Meshes& meshes, uint32_t lightCount);
+    bool update(const ShadowPlan::Inputs& in, const Meshes& meshes, std::span<uint32_t> shadowedLights);
 
-    vk::Buffer shadowedLights() const { return *lights_.handle; }
     vk::Buffer mask() const { return *mask_.handle; }
     frame::BufferId import(frame::FrameGraph& graph) const;
     /// The passes "shadow.mask", which clears it, and "shadow.volumes". \param depth of the surfaces, with a stencil
@@ -47,8 +47,7 @@ private:
     void makeEdges(const Meshes& meshes);
 
     const gpu::Context& context_;
-    gpu::Buffer mask_, edges_, lights_;
-    gpu::MappedBuffer staging_;
+    gpu::Buffer mask_, edges_;
     std::vector<EdgeRange> edgeRanges_;  ///< by mesh; empty until they are needed
     std::vector<Hidden> hidden_;         ///< the bits of the mask, in order
     float reach_ = 0;                   ///< of volumes, metres; 0: infinite
