@@ -124,6 +124,13 @@ TEST_CASE("shadow volumes: what they can't do is refused, and what finds no room
     CHECK(frame.stats.shadows->lights == 64);
     REQUIRE(!frame.stats.shadows->lost.empty());
     CHECK(frame.stats.shadows->lost[0].reason == "the masks of more than 64 lights do not fit into 1 MiB (shadow-memory)");
+    std::vector<float> sizes;  // the smallest in the picture go first
+    for (const auto& without : frame.stats.shadows->lost) {
+        const Light& light = hall.scene.lights[without.light];
+        sizes.push_back(light.range / std::max(light.range, glm::distance(light.positionWorld, vec3(hall.view.camera.worldFromView[3]))));
+    }
+    CHECK(sizes.size() > 5);
+    CHECK(std::ranges::is_sorted(sizes));
     for (const auto& without : frame.stats.shadows->lost) hall.scene.lights[without.light].castsShadows = false;
     settings.onOverflow = OnOverflow::fail;
     CHECK_THROWS_WITH_AS(renderer->render(hall.view, settings), doctest::Contains("shadows: "), Error);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <luciole/error.hpp>
+#include <ranges>
 
 #include "frame/pass_context.hpp"
 #include "render/lighting/light_volume.shared.h"
@@ -60,32 +61,49 @@ bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, s
     stats_ = {};
     hidden_.clear();
     const SeenSpace seen(in.view);
-    const uint64_t pixels = uint64_t(in.view.extent.x) * in.view.extent.y;
-    const uint64_t most = std::min<uint64_t>(uint64_t(in.settings.shadowMemory) << 20, context_.limits().maxStorageBufferRange) / (4 * pixels) * 32;
-    double farthest = distance(dvec3(in.boundsWorld.low), dvec3(in.boundsWorld.high));
+    const uint64_t maskBytes = 4 * uint64_t(in.view.extent.x) * in.view.extent.y;  // for 32 lights
+    const uint64_t most = std::min<uint64_t>(uint64_t(in.settings.shadowMemory) << 20, context_.limits().maxStorageBufferRange) / maskBytes * 32;
+    const double across = distance(dvec3(in.boundsWorld.low), dvec3(in.boundsWorld.high));
+    double farthest = across;
+    const auto hides = [&](const Light& light, const ShadowCaster& object) {
+        if (!object.casts || !in.castsFor(light.linkGroup, object.objectId)) return false;
+        const vec3 nearest = clamp(light.positionWorld, object.boundsWorld.low, object.boundsWorld.high);
+        return light.type == LightType::directional || distance(nearest, light.positionWorld) < light.range;
+    };
+    struct Candidate {
+        uint32_t light;
+        double pixels;  // how large it is in the picture
+    };
+    std::vector<Candidate> candidates;
     for (uint32_t i = 0; i < in.lights.size(); ++i) {
         const Light& light = in.lights[i];
-        const bool directional = light.type == LightType::directional;
         if (!light.castsShadows || light.color == vec3(0)) continue;
-        if (!directional) {
+        double pixels = HUGE_VAL;
+        if (light.type != LightType::directional) {
             const bool spot = light.type == LightType::spot;
             const shared::LightShape shape{light.positionWorld, spot ? vec3(normalize(dvec3(light.directionWorld))) : vec3(0, 0, 1), light.range,
                                            spot ? light.outerConeAngle : shared::kHalfTurn};
             if (std::isfinite(light.range) && !seen.meets(dvec4(shared::boundingBall(shape)) * dvec4(1, 1, 1, 1.001))) continue;
-            farthest = std::max(farthest, double(distance(light.positionWorld, 0.5f * (in.boundsWorld.low + in.boundsWorld.high))));
+            const double away = distance(light.positionWorld, 0.5f * (in.boundsWorld.low + in.boundsWorld.high));
+            const double range = std::min<double>(light.range, away + 0.5 * across);
+            farthest = std::max(farthest, away);
+            pixels = range * seen.pixelsPerMetre(light.positionWorld, range);
         }
-        Hidden hidden{.light = i, .lightWorld = directional ? vec4(normalize(light.directionWorld), 0) : vec4(light.positionWorld, 1)};
-        for (uint32_t caster = 0; caster < in.casters.size(); ++caster) {
-            const ShadowCaster& object = in.casters[caster];
-            if (!object.casts || !in.castsFor(light.linkGroup, object.objectId)) continue;
-            const vec3 nearest = clamp(light.positionWorld, object.boundsWorld.low, object.boundsWorld.high);
-            if (directional || distance(nearest, light.positionWorld) < light.range) hidden.casters.push_back(caster);
-        }
-        if (hidden.casters.empty()) continue;
-        if (hidden_.size() >= most) {
-            stats_.lost.push_back({i, fmt::format("the masks of more than {} lights do not fit into {} MiB (shadow-memory)", most, in.settings.shadowMemory)});
-            continue;
-        }
+        if (std::ranges::any_of(in.casters, [&](const ShadowCaster& object) { return hides(light, object); })) candidates.push_back({i, pixels});
+    }
+    if (candidates.size() > most) {
+        std::ranges::stable_sort(candidates, std::greater{}, &Candidate::pixels);
+        for (const Candidate& without : candidates | std::views::drop(most) | std::views::reverse)
+            stats_.lost.push_back({without.light, fmt::format("the masks of more than {} lights do not fit into {} MiB (shadow-memory)", most, in.settings.shadowMemory)});
+        candidates.resize(most);
+        std::ranges::sort(candidates, {}, &Candidate::light);
+    }
+    for (const Candidate& candidate : candidates) {
+        const Light& light = in.lights[candidate.light];
+        Hidden hidden{.light = candidate.light,
+                      .lightWorld = light.type == LightType::directional ? vec4(normalize(light.directionWorld), 0) : vec4(light.positionWorld, 1)};
+        for (uint32_t caster = 0; caster < in.casters.size(); ++caster)
+            if (hides(light, in.casters[caster])) hidden.casters.push_back(caster);
         hidden_.push_back(std::move(hidden));
     }
     if (in.settings.onOverflow == OnOverflow::fail && !stats_.lost.empty())
@@ -94,7 +112,7 @@ bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, s
     stats_.lights = stats_.drawn = uint32_t(hidden_.size());
     reach_ = in.view.camera.orthographic ? float(4 * farthest + 1) : 0;  // of directions at infinity it would see none
     words_ = std::max<uint32_t>(1, (uint32_t(hidden_.size()) + 31) / 32);
-    stats_.bytes = 4 * pixels * words_;
+    stats_.bytes = maskBytes * words_;
     for (uint32_t bit = 0; bit < hidden_.size(); ++bit) shadowedLights[hidden_[bit].light] = bit << shared::kShadowCountBits | shared::kShadowVolumes;
     if (stats_.bytes == mask_.bytes) return false;
     mask_ = gpu::makeBuffer(context_, "shadow mask", stats_.bytes, vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eTransferDst);
