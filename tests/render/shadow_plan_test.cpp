@@ -260,6 +260,12 @@ TEST_CASE("shadow plan: what does not fit is named, the least visible first, and
     CHECK_THROWS_WITH_AS(plan.update(room.inputs()), doctest::Contains("(shadow-memory), not at 16 texels a side"), Error);
     room.settings.onOverflow = OnOverflow::exact;
     room.settings.shadowMemory = 4096;
+    Room small = room;
+    small.largestSide = 512;
+    ShadowPlan ofSmall;
+    ofSmall.update(small.inputs());
+    REQUIRE(!ofSmall.stats().lost.empty());
+    CHECK(ofSmall.stats().lost[0].reason == "the maps of all lights do not fit into an image of 512 x 512 texels, the device's largest, not at 16 texels a side");
     plan.update(room.inputs());
     CHECK(plan.stats().lost.empty());
 }

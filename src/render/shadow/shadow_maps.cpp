@@ -18,36 +18,35 @@ static_assert(sizeof(shared::ShadowMap) == 60 && sizeof(shared::ShadowPush) == 7
 }  // namespace
 
 ShadowMaps::ShadowMaps(const gpu::Context& context) : context_(context) {
-    makeAtlas(atlas_, "shadow atlas", {1, 1});
+    atlas_ = makeAtlas("shadow atlas", {1, 1});
     maps_.update(context, "shadow maps", {}, sizeof(shared::ShadowMap));
 }
 
-void ShadowMaps::makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D extent) {
+gpu::Image ShadowMaps::makeAtlas(const char* name, vk::Extent2D extent) const {
     using Usage = vk::ImageUsageFlagBits;
-    atlas = {};  // first: both may not fit
-    atlas = gpu::makeImage(context_, name,
-                           {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst});
+    gpu::Image atlas = gpu::makeImage(context_, name,
+                                      {.format = kFormat, .extent = extent, .usage = Usage::eDepthStencilAttachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst});
     context_.runOnce([&](const vk::raii::CommandBuffer& commands) {
         const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1};
         gpu::transitionImage(commands, atlas, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal);
         commands.clearDepthStencilImage(*atlas.handle, vk::ImageLayout::eTransferDstOptimal, vk::ClearDepthStencilValue{0.0f, 0}, all);
         gpu::transitionImage(commands, atlas, vk::ImageLayout::eTransferDstOptimal, kLayout);
     });
+    return atlas;
 }
 
 bool ShadowMaps::update(const ShadowPlan::Inputs& in, std::span<uint32_t> shadowedLights) {
-    if (!*atlas_.handle || plan_.needsStill() != bool(*still_.handle)) plan_.forget();  // the last frame found no room for one
+    const auto wanted = [&] { return vk::Extent2D{plan_.extent().x, plan_.extent().y}; };
+    if (wanted() != atlas_.extent || plan_.needsStill() != bool(*still_.handle)) plan_.forget();  // for the last frame there was no room for it
     plan_.update(in);
     bool changed = false;
-    const vk::Extent2D extent{plan_.extent().x, plan_.extent().y};
-    if (extent.width > 0 && extent != atlas_.extent) {
+    if (wanted().width > 0 && wanted() != atlas_.extent) {
         still_ = {};
-        makeAtlas(atlas_, "shadow atlas", extent);
+        atlas_ = makeAtlas("shadow atlas", wanted());
         changed = true;
     }
     if (plan_.needsStill() != bool(*still_.handle)) {
-        still_ = {};
-        if (plan_.needsStill()) makeAtlas(still_, "shadow atlas, still", atlas_.extent);
+        still_ = plan_.needsStill() ? makeAtlas("shadow atlas, still", atlas_.extent) : gpu::Image{};
         changed = true;
     }
     std::vector<shared::ShadowMap> maps;

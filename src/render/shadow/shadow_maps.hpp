@@ -33,7 +33,7 @@ public:
     ShadowStats stats() const;
 
 private:
-    void makeAtlas(gpu::Image& atlas, const char* name, vk::Extent2D extent);
+    gpu::Image makeAtlas(const char* name, vk::Extent2D extent) const;
 
     const gpu::Context& context_;
     ShadowPlan plan_;

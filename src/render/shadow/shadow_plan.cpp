@@ -284,12 +284,15 @@ void ShadowPlan::fit(const Inputs& in) {
         std::vector<uint32_t> order;
         for (const auto& [light, size] : sizes) order.push_back(light);
         std::ranges::stable_sort(order, {}, [&](uint32_t light) { return pixels[light]; });
+        const bool byMemory = largest != extentFor(UINT64_MAX, UINT64_MAX, largestSide);
+        const std::string where = byMemory ? fmt::format("{} MiB (shadow-memory)", in.settings.shadowMemory)
+                                           : fmt::format("an image of {} x {} texels, the device's largest", largest.x, largest.y);
         std::map<uint32_t, bool> goes;
         for (const uint32_t light : order) {
             if (texels <= capacity) break;
             texels -= sizes[light];
             goes[light] = true;
-            stats_.lost.push_back({light, fmt::format("the maps of all lights do not fit into {} MiB (shadow-memory), not at {} texels a side", in.settings.shadowMemory, kLeastSide)});
+            stats_.lost.push_back({light, fmt::format("the maps of all lights do not fit into {}, not at {} texels a side", where, kLeastSide)});
         }
         std::erase_if(maps_, [&](const PlannedMap& map) { return goes.contains(map.light); });
     }

@@ -62,7 +62,8 @@ bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, s
     hidden_.clear();
     const SeenSpace seen(in.view);
     const uint64_t maskBytes = 4 * uint64_t(in.view.extent.x) * in.view.extent.y;  // for 32 lights
-    const uint64_t most = std::min<uint64_t>(uint64_t(in.settings.shadowMemory) << 20, context_.limits().maxStorageBufferRange) / maskBytes * 32;
+    const uint64_t memory = uint64_t(in.settings.shadowMemory) << 20, largest = context_.limits().maxStorageBufferRange;
+    const uint64_t most = std::min(memory, largest) / maskBytes * 32;
     const double across = distance(dvec3(in.boundsWorld.low), dvec3(in.boundsWorld.high));
     double farthest = across;
     const auto hides = [&](const Light& light, const ShadowCaster& object) {
@@ -93,8 +94,10 @@ bool ShadowVolumes::update(const ShadowPlan::Inputs& in, const Meshes& meshes, s
     }
     if (candidates.size() > most) {
         std::ranges::stable_sort(candidates, std::greater{}, &Candidate::pixels);
+        const std::string where = memory <= largest ? fmt::format("{} MiB (shadow-memory)", in.settings.shadowMemory)
+                                                    : fmt::format("{} bytes, the device's largest buffer", largest);
         for (const Candidate& without : candidates | std::views::drop(most) | std::views::reverse)
-            stats_.lost.push_back({without.light, fmt::format("the masks of more than {} lights do not fit into {} MiB (shadow-memory)", most, in.settings.shadowMemory)});
+            stats_.lost.push_back({without.light, fmt::format("the masks of more than {} lights do not fit into {}", most, where)});
         candidates.resize(most);
         std::ranges::sort(candidates, {}, &Candidate::light);
     }
