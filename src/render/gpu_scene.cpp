@@ -16,7 +16,6 @@
 #include "render/lighting/bounce.shared.h"
 #include "render/lighting/light_tree.shared.h"
 #include "render/tables.hpp"
-#include "scene/mip_chain.hpp"
 
 namespace luciole::render {
 namespace {
@@ -34,19 +33,6 @@ constexpr auto kReadByVolumes = Usage::eStorageBuffer | Usage::eTransferSrc;
 
 /// For textures of which single texels are read.
 constexpr Sampler kTexels{.wrapU = Wrap::clampToEdge, .wrapV = Wrap::clampToEdge, .magFilter = Filter::nearest, .minFilter = Filter::nearest, .mipFilter = MipFilter::none};
-
-/// The textures of a material in the order of kTexture*, and whether each holds sRGB colours.
-struct TextureRole {
-    const TextureUse* use;
-    bool srgb;
-};
-std::array<TextureRole, kTextureSlots> texturesOf(const Material& material) {
-    return {{{&material.baseColorTexture, true},
-             {&material.metallicRoughnessTexture, false},
-             {&material.normalTexture, false},
-             {&material.occlusionTexture, false},
-             {&material.emissiveTexture, true}}};
-}
 
 bool mirrored(const Object& object) { return determinant(dmat3(object.worldFromObject)) < 0; }
 
@@ -95,47 +81,16 @@ Camera bounceCamera(const Light& light) {
     return {.worldFromView = worldFromView, .yFov = 2 * light.outerConeAngle, .zNear = kBounceNear};
 }
 
-vk::SamplerAddressMode addressMode(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::mirroredRepeat: return vk::SamplerAddressMode::eMirroredRepeat;
-        case Wrap::clampToEdge: return vk::SamplerAddressMode::eClampToEdge;
-        default: return vk::SamplerAddressMode::eRepeat;
-    }
-}
-
-vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
-
-vk::raii::Sampler makeSampler(const gpu::Context& context, const Sampler& sampler) {
-    const bool mips = sampler.mipFilter != MipFilter::none;
-    return {context.device(),
-            {.magFilter = filterOf(sampler.magFilter),
-             .minFilter = filterOf(sampler.minFilter),
-             .mipmapMode = sampler.mipFilter == MipFilter::linear ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest,
-             .addressModeU = addressMode(sampler.wrapU),
-             .addressModeV = addressMode(sampler.wrapV),
-             // 0.25 keeps to level 0 and still tells minification from magnification (VkSamplerCreateInfo, note).
-             .maxLod = mips ? VK_LOD_CLAMP_NONE : 0.25f}};
-}
-
-gpu::Image uploadTexels(const gpu::Context& context, const std::string& name, const Texels& texels, bool srgb) {
-    const auto chain = mipChain(texels, srgb);
-    std::vector<std::span<const std::byte>> levels;
-    for (const Texels& level : chain) levels.push_back(std::as_bytes(std::span(level.rgba)));
-    return gpu::uploadImage(context, name, srgb ? vk::Format::eR8G8B8A8Srgb : vk::Format::eR8G8B8A8Unorm,
-                            {texels.width, texels.height}, levels);
-}
-
 }  // namespace
 
 GpuScene::GpuScene(const gpu::Context& context, const gpu::Pipelines& pipelines, const Scene& scene)
-    : context_(context), sceneLights_(scene.lights), functionCount_(uint32_t(scene.functions.size())), volumes_(volumeTables(scene)),
+    : context_(context), textures_(context, scene), sceneLights_(scene.lights), functionCount_(uint32_t(scene.functions.size())), volumes_(volumeTables(scene)),
       objectClasses_(render::objectClasses(scene)), ambience_(scene.ambience),
       exposureEv_(scene.exposureEv), boundsWorld_(luciole::boundsOf(scene)), shadows_(context), shadowVolumes_(context) {
     for (const LinkGroup& group : scene.linkGroups) castingObjects_.push_back(group.castingObjects);
     uploadMeshes(scene);
     uploadObjects(scene);
     uploadMaterials(scene);
-    uploadTextures(scene);
     createMaterialSets(scene, pipelines);
     uploadFunctions(scene);
     linkTable_ = linkTable(scene, linkWords_);
@@ -274,28 +229,6 @@ void GpuScene::uploadMaterials(const Scene& scene) {
     materials_ = gpu::uploadBuffer(context_, "materials", materials, Usage::eStorageBuffer | Usage::eUniformBuffer);
 }
 
-void GpuScene::uploadTextures(const Scene& scene) {
-    images_.resize(scene.texels.size());
-    for (const Material& material : scene.materials)
-        for (const TextureRole& role : texturesOf(material)) {
-            if (role.use->texture == kNone) continue;
-            const uint32_t texels = scene.textures[role.use->texture].texels;
-            gpu::Image& image = images_[texels][role.srgb];
-            if (!*image.view) image = uploadTexels(context_, fmt::format("texels {} \"{}\"", texels, scene.texels[texels].name), scene.texels[texels], role.srgb);
-        }
-    white_ = uploadTexels(context_, "white", {.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}}, false);
-    samplerOf(Sampler{});
-    for (const Texture& texture : scene.textures) samplerOf(texture.sampler);
-}
-
-vk::Sampler GpuScene::samplerOf(const Sampler& wanted) {
-    // A device may allow no more than 4,000 samplers; of different ones there are 108.
-    for (const auto& [settings, sampler] : samplers_)
-        if (settings == wanted) return *sampler;
-    samplers_.emplace_back(wanted, makeSampler(context_, wanted));
-    return *samplers_.back().second;
-}
-
 void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines) {
     const auto count = uint32_t(scene.materials.size());
     const vk::DescriptorPoolSize sizes[] = {{vk::DescriptorType::eCombinedImageSampler, count * kMaterialTextures + 2 * kFrameSampledCount},
@@ -308,17 +241,7 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
     const auto sets = gpu::allocateSets(context_, pool_, pipelines.materialSetLayout(), count);
     for (uint32_t i = 0; i < count; ++i) {
         const Material& material = scene.materials[i];
-        uint32_t present = 0;
-        std::array<vk::DescriptorImageInfo, kTextureSlots> infos;
-        const auto roles = texturesOf(material);
-        for (uint32_t slot = 0; slot < kTextureSlots; ++slot) {
-            const uint32_t texture = roles[slot].use->texture;
-            const bool has = texture != kNone;
-            present |= uint32_t(has) << slot;
-            infos[slot] = {.sampler = samplerOf(has ? scene.textures[texture].sampler : Sampler{}),
-                           .imageView = has ? *images_[scene.textures[texture].texels][roles[slot].srgb].view : *white_.view,
-                           .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
-        }
+        const auto infos = textures_.of(material);
         context_.device().updateDescriptorSets(
             vk::WriteDescriptorSet{.dstSet = sets[i],
                                    .dstBinding = 0,
@@ -333,7 +256,7 @@ void GpuScene::createMaterialSets(const Scene& scene, const gpu::Pipelines& pipe
                                                                       .descriptorType = vk::DescriptorType::eUniformBuffer,
                                                                       .pBufferInfo = &constants},
                                                nullptr);
-        drawMaterials_[i].inputs |= present;
+        drawMaterials_[i].inputs |= SceneTextures::presentIn(material);
         drawMaterials_[i].set = sets[i];
     }
 }
@@ -458,9 +381,9 @@ void GpuScene::writeFrameSet(vk::DescriptorSet set, vk::Buffer view) {
         vk::ImageLayout layout;
     };
     const auto readOnly = vk::ImageLayout::eShaderReadOnlyOptimal;
-    const Texture textures[] = {{kFrameFunctions, *functions_.view, samplerOf({}), readOnly},
-                                {kFrameLightTree, *lightTree_.view, samplerOf({}), readOnly},
-                                {kFrameShadowAtlas, shadows_.atlas(), samplerOf(kTexels), vk::ImageLayout::eDepthReadOnlyOptimal}};
+    const Texture textures[] = {{kFrameFunctions, *functions_.view, textures_.samplerOf({}), readOnly},
+                                {kFrameLightTree, *lightTree_.view, textures_.samplerOf({}), readOnly},
+                                {kFrameShadowAtlas, shadows_.atlas(), textures_.samplerOf(kTexels), vk::ImageLayout::eDepthReadOnlyOptimal}};
     for (const Texture& texture : textures) {
         const vk::DescriptorImageInfo info{.sampler = texture.sampler, .imageView = texture.view, .imageLayout = texture.layout};
         context_.device().updateDescriptorSets(

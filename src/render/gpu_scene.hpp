@@ -9,6 +9,7 @@
 #include "frame/pass_context.hpp"
 #include "gpu/pipelines.hpp"
 #include "gpu/resources.hpp"
+#include "render/scene_textures.hpp"
 #include "render/shadow/shadow_maps.hpp"
 #include "render/shadow/shadow_volumes.hpp"
 #include "render/tables.hpp"
@@ -138,8 +139,6 @@ private:
     void uploadObjects(const Scene& scene);
     void uploadMaterials(const Scene& scene);
     size_t drawnMaterialStride() const;  ///< bytes between those of two materials
-    void uploadTextures(const Scene& scene);
-    vk::Sampler samplerOf(const Sampler& wanted);
     void createMaterialSets(const Scene& scene, const gpu::Pipelines& pipelines);
     void uploadFunctions(const Scene& scene);
     void uploadLights(std::span<const Light> lights, std::optional<Bounce> bounce);
@@ -165,10 +164,7 @@ private:
     std::vector<std::vector<bool>> castingObjects_;   ///< LinkGroup::castingObjects
     std::vector<BlendedObject> blended_;  ///< setView sorts them
     std::vector<DrawMaterial> drawMaterials_;
-    /// Texels by [image][sRGB]: one image may serve as colour and as data.
-    std::vector<std::array<gpu::Image, 2>> images_;
-    gpu::Image white_;
-    std::vector<std::pair<Sampler, vk::raii::Sampler>> samplers_;
+    SceneTextures textures_;
     vk::raii::DescriptorPool pool_ = nullptr;
     vk::DescriptorSet frameSet_, bounceSet_;
     std::vector<Light> sceneLights_;
