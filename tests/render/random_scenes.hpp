@@ -84,4 +84,15 @@ inline Camera randomCamera(Dice& dice) {
     return camera;
 }
 
+inline const View kRoomView{frontCamera(6), {48, 36}};  ///< into whiteRoom()
+
+/// For there. Half of them spots; no nearer to the walls than a tenth of a metre. \param scale of their ranges: 1 for up to a metre
+inline void addManyLights(Scene& scene, Dice& dice, uint32_t count, float scale) {
+    for (uint32_t i = 0; i < count; ++i) {
+        const vec3 at = dice.place(1.9f);
+        const float range = scale * dice.between(0.2f, 1);
+        scene.lights.push_back(i % 2 == 0 ? pointLight(at, vec3(1), range) : spotLight(at, dice.direction(), 0.2f, dice.between(0.3f, 1.5f), vec3(2), range));
+    }
+}
+
 }  // namespace luciole::test

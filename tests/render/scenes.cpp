@@ -143,6 +143,19 @@ LightVolume torus(float ring, float tube, uint32_t around, uint32_t across, cons
     return volume;
 }
 
+Scene whiteRoom() {
+    Scene scene;
+    const Material white = lambertMaterial(scene);
+    const auto addWall = [&](vec3 at, float turn, vec3 axis) { addObject(scene, quad(2), white, glm::rotate(glm::translate(mat4(1), at), turn, axis)); };
+    const float quarter = float(kPi) / 2;
+    addWall(vec3(0, 0, -2), 0, vec3(1, 0, 0));
+    addWall(vec3(0, -2, 0), -quarter, vec3(1, 0, 0));
+    addWall(vec3(0, 2, 0), quarter, vec3(1, 0, 0));
+    addWall(vec3(-2, 0, 0), quarter, vec3(0, 1, 0));
+    addWall(vec3(2, 0, 0), -quarter, vec3(0, 1, 0));
+    return scene;
+}
+
 TestScene builtin(const std::string& uri, uvec2 extent) {
     Scene scene = loadScene(uri);
     const Camera camera = scene.cameras.at(0);

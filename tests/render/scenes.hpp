@@ -33,4 +33,7 @@ TestScene builtin(const std::string& uri, uvec2 extent);
 /// A floor of tiles that do not meet, each an object that may cast, under a light of each type that lies so many degrees above it.
 TestScene tiledFloor(float degrees);
 
+/// A room of five white squares seen from its open side, whose normals and colours all G-buffers hold as good as exactly.
+Scene whiteRoom();
+
 }  // namespace luciole::test
