@@ -4,6 +4,7 @@
 #include <luciole/scene_io.hpp>
 
 #include "device.hpp"
+#include "random_scenes.hpp"
 #include "reference/camera_rays.hpp"
 #include "render/shadow/shadow_plan.hpp"
 #include "scene/visibility.hpp"
@@ -215,6 +216,27 @@ TEST_CASE("shadow maps: each technique gives the shadows of its yardstick, with 
             const Frame frame = renderer->render(view, with(filter, std::string(technique.info.name)));
             checkAlike(technique, frame.radiance, yardstick.radiance, yardsticks.comparable(technique, test.scene), test.scene.lights.size());
         }
+    }
+}
+
+TEST_CASE("shadows: among more lights than a uniform buffer holds each has its own") {
+    Scene few = whiteRoom();
+    addObject(few, quad(1), lambertMaterial(few));
+    Dice dice(1300);
+    addManyLights(few, dice, 60, 4);
+    Scene many = few;
+    many.lights.clear();
+    addManyLights(many, dice, shared::kUniformLights, 4);
+    for (Light& light : many.lights) light.color = vec3(0);
+    many.lights.insert(many.lights.end(), few.lights.begin(), few.lights.end());
+    ValidatedRenderer renderer;
+    for (const Shadows kind : {Shadows::maps, Shadows::volumes}) {
+        INFO("shadows " << int(kind));
+        const RenderSettings settings{.lighting = "clustered", .shadows = kind};
+        const Frame expected = renderer.render(few, kRoomView, settings), found = renderer.render(many, kRoomView, settings);
+        CHECK(found.stats.shadows->lights == expected.stats.shadows->lights);
+        CHECK(difference(found.radiance, expected.radiance).max < 1e-5);
+        CHECK(difference(found.radiance, renderer.render(few, kRoomView, {.lighting = "clustered"}).radiance).mean > 0.02);
     }
 }
 
