@@ -105,7 +105,7 @@ struct ShadowStats {
         uint32_t light;         ///< index into Scene::lights
         std::string reason;
     };
-    std::vector<Without> waiting;  ///< lights of which a map is old, or was never drawn (shadow-redraws): it is next frame's turn
+    std::vector<Without> waiting;  ///< lights of which a map is old, or was never drawn (shadow-redraws): its turn comes in a frame to follow
     std::vector<Without> lost;     ///< lights without a shadow
 };
 

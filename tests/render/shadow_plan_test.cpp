@@ -307,6 +307,36 @@ TEST_CASE("shadow plan: a budget of redraws draws the most visible first, says w
     CHECK_THROWS_WITH_AS(plan.update(room.inputs()), doctest::Contains("as 7 a frame are (shadow-redraws)"), Error);
 }
 
+TEST_CASE("shadow plan: where all lights always move, no map waits for ever") {
+    Room room;
+    room.addPoints(10, 6);
+    room.settings.shadowRedraws = 3;
+    ShadowPlan plan;
+    PaintedAtlas atlas;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn;
+    double most = 1, least = HUGE_VAL;
+    constexpr uint32_t kFrames = 400;
+    for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        for (Light& light : room.lights) light.positionWorld.x += frame & 1 ? 0.01f : -0.01f;
+        ++room.version;
+        plan.update(room.inputs());
+        atlas.checkFrame(plan);
+        CHECK(plan.stats().drawn == 3);
+        for (const uint32_t i : plan.dirty()) ++drawn[{plan.maps()[i].light, plan.maps()[i].face}];
+    }
+    for (const render::PlannedMap& map : plan.maps()) {
+        if (map.side == 0) continue;
+        most = std::max(most, map.pixels);
+        least = std::min(least, map.pixels);
+        CHECK(drawn[{map.light, map.face}] >= 1);
+    }
+    // As often as they are large: of two maps the larger is drawn more often by about that factor.
+    CHECK(most / least > 1.5);
+    uint32_t oftenest = 0, seldomest = kFrames;
+    for (const auto& [map, times] : drawn) oftenest = std::max(oftenest, times), seldomest = std::min(seldomest, times);
+    CHECK(double(oftenest) / seldomest == doctest::Approx(most / least).epsilon(0.25));
+}
+
 TEST_CASE("shadow plan: whatever moves, each map finds in its page what was drawn for it") {
     for (uint64_t seed = 1; seed <= 20; ++seed) {
         Dice dice(seed);

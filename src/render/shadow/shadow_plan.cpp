@@ -317,7 +317,7 @@ bool ShadowPlan::fits(const PlannedMap& map, const Kept& kept) const {
     return kept.page.side == map.side || (kept.page.side == 2 * map.side && stats_.coarser == 0);
 }
 
-/// The maps that have to be drawn, the most visible first.
+/// The maps that have to be drawn, the most visible first. What waits counts for more with each frame, so that no map waits for ever.
 std::vector<uint32_t> ShadowPlan::due(const Inputs& in) const {
     std::vector<uint32_t> found;
     for (uint32_t i = 0; i < maps_.size(); ++i) {
@@ -325,7 +325,9 @@ std::vector<uint32_t> ShadowPlan::due(const Inputs& in) const {
         const Kept& kept = kept_.at({maps_[i].light, maps_[i].face});
         if (!fits(maps_[i], kept) || kept.drawn != signatureOfPage(in, kept.page, kept.casting)) found.push_back(i);
     }
-    std::ranges::stable_sort(found, std::greater{}, [&](uint32_t i) { return maps_[i].pixels; });
+    std::ranges::stable_sort(found, std::greater{}, [&](uint32_t i) {
+        return std::max(maps_[i].pixels, 1.0) * (1 + kept_.at({maps_[i].light, maps_[i].face}).waited);
+    });
     return found;
 }
 
@@ -391,7 +393,9 @@ void ShadowPlan::chooseDirty(const Inputs& in) {
         std::vector<bool> told(in.lights.size());
         for (const uint32_t i : std::span(dirty_).subspan(most)) {
             PlannedMap& map = maps_[i];
-            if (map.drawn) map.frustum = kept_.at({map.light, map.face}).frustum;
+            Kept& kept = kept_.at({map.light, map.face});
+            if (map.drawn) map.frustum = kept.frustum;
+            ++kept.waited;
             if (!told[map.light])
                 stats_.waiting.push_back({map.light, fmt::format("its map waits to be drawn, as {} a frame are (shadow-redraws)", most)});
             told[map.light] = true;
@@ -402,6 +406,7 @@ void ShadowPlan::chooseDirty(const Inputs& in) {
         PlannedMap& map = maps_[i];
         Kept& kept = kept_.at({map.light, map.face});
         kept.frustum = map.frustum;
+        kept.waited = 0;
         map.overStill = kept.anyMoves;
         map.stillDirty = kept.anyMoves && kept.still != signatureOfPage(in, map.page, kept.standing);
         for (uint32_t caster = 0; caster < in.casters.size(); ++caster) {

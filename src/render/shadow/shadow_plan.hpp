@@ -93,6 +93,7 @@ private:
         bool anyCaster = false, anyMoves = false;
         ShadowFrustum frustum = {};  ///< that the page was drawn from
         uint64_t lightSignature = 0;
+        uint32_t waited = 0;   ///< frames, since it was drawn
         bool wanted = false;   ///< in this frame
     };
     using Key = std::pair<uint32_t, uint32_t>;  ///< light, face
