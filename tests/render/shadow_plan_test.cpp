@@ -314,7 +314,7 @@ TEST_CASE("shadow plan: where all lights always move, no map waits for ever") {
     ShadowPlan plan;
     PaintedAtlas atlas;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> drawn;
-    double most = 1, least = HUGE_VAL;
+    double most = 0, least = HUGE_VAL;
     constexpr uint32_t kFrames = 400;
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         for (Light& light : room.lights) light.positionWorld.x += frame & 1 ? 0.01f : -0.01f;
